@@ -80,9 +80,18 @@ typedef struct {
   BUFFER(solver_delta_pose, float4, delta)                                                                             \
   BUFFER(solver_orientation, float4, orientation)
 
+/* The calls of a program, sorted by body. */
+#define GROUP_commands(BUFFER)                                                                                         \
+  BUFFER(command_start, uint, start)                                                                                   \
+  BUFFER(command, uint, command)                                                                                       \
+  BUFFER(command_value, float4, value)
+
 typedef struct {
   GROUP_bodies(READ_MEMBER)
 } read_bodies;
+typedef struct {
+  GROUP_commands(READ_MEMBER)
+} read_commands;
 typedef struct {
   GROUP_touching_bodies(READ_MEMBER)
 } read_touching_bodies;

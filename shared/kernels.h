@@ -13,10 +13,12 @@
 #include "shared/sweeps/kernels.h"
 #endif
 #ifndef TANDEM_PART_FINDING
+#include "shared/commands/kernels.h"
 #include "shared/setup/kernels.h"
 #include "shared/batching/kernels.h"
 #include "shared/solve/kernels.h"
 #include "shared/integrate/kernels.h"
+#include "shared/forces/kernels.h"
 #include "shared/events/kernels.h"
 #include "shared/problem/kernels.h"
 #endif

@@ -52,6 +52,7 @@ private:
   {
     run(Kernel::compute_bounds);
     if (settings().bounds == Bounds::tight && has(FEATURE_CONVEX)) run(Kernel::tighten_bounds);
+    if (plan().forces) run(Kernel::extend_bounds);
     row_of(settings().broadphase).launch(*this);
   }
 
@@ -138,6 +139,7 @@ private:
     if (settings().pair_events) list_pair_events();
     launcher().begin_commit();
     run(Kernel::commit_bodies);
+    if (plan().forces) run(Kernel::clear_forces);
     run(Kernel::cache_starts);
     run(Kernel::cache_pairs);
     run(Kernel::cache_impulses);

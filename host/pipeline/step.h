@@ -17,6 +17,7 @@ struct StepPlan {
   uint32_t bodies = 0;
   uint32_t capacity_pairs = 0;
   uint32_t capacity_cells = 0;
+  bool forces = false; /* a program or a module applies forces to bodies */
   uint32_t colors = 16; /* up to COLOR_LIMIT + 1: the overflow constraints */
   uint32_t rounds = 16;
   std::array<uint32_t, COUNT_TOTAL> known{}; /* counts after the last step */

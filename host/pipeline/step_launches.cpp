@@ -60,8 +60,16 @@ void StepLaunches::for_each_color(Kernel kernel, Kernel overflow, const Values &
 void StepLaunches::begin_substep(uint32_t substep)
 {
   if (has(FEATURE_EVENTS)) run(Kernel::sum_impulses, {substep});
+  if (plan_.forces) run(Kernel::begin_forces);
   run_extensions(StepPoint::forces);
+  if (plan_.forces) run(Kernel::apply_forces);
   run(Kernel::integrate_velocities);
+}
+
+void StepLaunches::move_bodies()
+{
+  run(Kernel::integrate_positions);
+  if (plan_.forces) run(Kernel::follow_forces);
 }
 
 void StepLaunches::scan_pairs(Buffer starts, uint32_t length)

@@ -39,6 +39,8 @@ public:
   void for_each_color(Kernel kernel, Kernel overflow, const Values &values = {});
   /* Starts a substep: the impulses of the previous one are added up for the events, and forces are applied. */
   void begin_substep(uint32_t substep);
+  /* Moves the bodies over a substep. */
+  void move_bodies();
   /* Scans the numbers of pairs that items have found, so that `starts` holds the index of each item's first pair, and
    * sets the total. */
   void scan_pairs(Buffer starts, uint32_t length = COUNT_BODIES);

@@ -164,11 +164,33 @@ void *Memory::acquire(Buffer buffer, Storage &storage, Access access)
   return copy.handle;
 }
 
+/* A valid copy in memory of a device's own, or null. */
+Memory::Copy *Memory::valid_on_device(Entry &entry)
+{
+  for (Copy &copy : entry.copies)
+    if (copy.valid && copy.storage != &host_storage() && !copy.storage->shares_host_memory()) return &copy;
+  return nullptr;
+}
+
+void Memory::prepare_upload(Buffer buffer)
+{
+  if (!valid_on_device(entries_[index_of(buffer)])) acquire(buffer, host_storage(), Access::inout);
+}
+
 void Memory::upload(Buffer buffer, const void *from, size_t bytes, size_t offset)
 {
   if (bytes == 0) return;
-  char *host = static_cast<char *>(acquire(buffer, host_storage(), Access::inout));
-  std::memcpy(host + offset, from, bytes);
+  Entry &entry = entries_[index_of(buffer)];
+  Copy *device = valid_on_device(entry);
+  if (!device) {
+    char *host = static_cast<char *>(acquire(buffer, host_storage(), Access::inout));
+    std::memcpy(host + offset, from, bytes);
+    return;
+  }
+  device->storage->write(device->handle, offset, from, bytes);
+  for (Copy &copy : entry.copies)
+    if (copy.storage == &host_storage() && copy.valid) std::memcpy(static_cast<char *>(copy.handle) + offset, from, bytes);
+    else copy.valid = &copy == device;
 }
 
 /* Reads directly from a device if the host's copy is stale, so that reading a count transfers only the count. */

@@ -32,8 +32,8 @@ public:
   void assign(Buffer buffer, const void *from, size_t bytes);
   /* Allocates the copy in a storage before anything runs; OutOfMemory leaves all contents unchanged. */
   void reserve(Buffer buffer, Storage &storage);
-  /* Ensures that later uploads to the buffer cannot fail. */
-  void prepare_upload(Buffer buffer) { acquire(buffer, host_storage(), Access::inout); }
+  /* Ensures that later uploads to the buffer do not run out of memory. */
+  void prepare_upload(Buffer buffer);
   /* Exchanges two buffers of the same type. */
   void exchange(Buffer one, Buffer other) noexcept { std::swap(entries_[index_of(one)], entries_[index_of(other)]); }
   /* 0 for a buffer of a module that was added later. */
@@ -49,6 +49,7 @@ public:
    * unchanged. */
   void *acquire(Buffer buffer, Storage &storage, Access access);
 
+  /* Writes in place where the buffer is valid, so that a few bytes do not move all of it. */
   void upload(Buffer buffer, const void *from, size_t bytes, size_t offset = 0);
   void download(Buffer buffer, void *to, size_t bytes, size_t offset = 0);
   template <class T> std::vector<T> read(Buffer buffer, size_t elements, size_t first = 0)
@@ -76,6 +77,7 @@ private:
   Copy &copy_in(Entry &entry, Storage &storage);
   void *allocate(const Entry &entry, size_t bytes, Storage &storage, void *host_memory);
   Copy &most_precise(Entry &entry);
+  static Copy *valid_on_device(Entry &entry);
   void make_valid(Entry &entry, Copy &copy);
   void wait_for_readers(Entry &entry, Storage &writer);
   void release(Entry &entry) noexcept;

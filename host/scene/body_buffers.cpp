@@ -9,12 +9,12 @@
 #include "host/base/finite_vector.h"
 #include "host/base/hash.h"
 #include "host/geometry/shape_mass.h"
-#include "host/scene/buffer_upload.h"
 #include "host/scene/hull_buffers.h"
 #include "host/scene/shape_bounds.h"
 #include "host/scene/specialise.h"
 #include "host/scene/tree_tables.h"
 #include "shared/body_codes.h"
+#include "shared/counts.h"
 
 namespace tandem {
 namespace {
@@ -39,33 +39,24 @@ struct PlacedShape {
   float radius; /* of the whole body: kernels do not read that of a child */
 };
 
-/* The shapes of all bodies, then the children of each. */
-std::vector<PlacedShape> placed_shapes(const Scene &scene, const std::vector<uint32_t> &order)
+PlacedShape shape_of_body(const Scene &scene, const Body &body)
 {
-  std::vector<PlacedShape> placed;
-  for (uint32_t index : order) {
-    const Body &body = scene.bodies[index];
-    placed.push_back({&body, &scene.shapes[body.shape], body.shape_position, body.shape_orientation, body.material,
-                      filter_of(scene, body), bounding_radius(scene, body)});
-  }
-  for (uint32_t index : order) {
-    const Body &body = scene.bodies[index];
-    const Shape &shape = scene.shapes[body.shape];
-    for (uint32_t k = 0; k < children_of(shape); ++k) {
-      const Child &child = shape.compound->children[k];
-      const ShapePlace place = place_of_child(body, child);
-      const auto &[x, y, z] = place.position;
-      const auto &[qx, qy, qz, qw] = place.orientation;
-      placed.push_back({&body,
-                        &child.shape,
-                        {round_to_float(x), round_to_float(y), round_to_float(z)},
-                        {round_to_float(qx), round_to_float(qy), round_to_float(qz), round_to_float(qw)},
-                        child.material.value_or(body.material),
-                        filter_of(body, child),
-                        0});
-    }
-  }
-  return placed;
+  return {&body,         &scene.shapes[body.shape], body.shape_position,         body.shape_orientation,
+          body.material, filter_of(scene, body),    bounding_radius(scene, body)};
+}
+
+PlacedShape shape_of_child(const Body &body, const Child &child)
+{
+  const ShapePlace place = place_of_child(body, child);
+  const auto &[x, y, z] = place.position;
+  const auto &[qx, qy, qz, qw] = place.orientation;
+  return {&body,
+          &child.shape,
+          {round_to_float(x), round_to_float(y), round_to_float(z)},
+          {round_to_float(qx), round_to_float(qy), round_to_float(qz), round_to_float(qw)},
+          child.material.value_or(body.material),
+          filter_of(body, child),
+          0};
 }
 
 uint32_t flags_of(const Scene &scene, const PlacedShape &placed)
@@ -74,6 +65,51 @@ uint32_t flags_of(const Scene &scene, const PlacedShape &placed)
          (placed.body->trigger ? uint32_t{BODY_FLAG_TRIGGER} : 0u) |
          (placed.body->continuous ? uint32_t{BODY_FLAG_CONTINUOUS} : 0u);
 }
+
+uint32_t as_absent(uint32_t flags) { return (flags & ~(3u << 3)) | uint32_t{BODY_TYPE_QUARANTINED} << 3; }
+
+/* A slot without a body: a point that takes part in nothing. */
+constexpr uint32_t flags_of_free_slot = uint32_t{BODY_TYPE_QUARANTINED} << 3 | uint32_t{SHAPE_SPHERE};
+
+/* The rows of consecutive shapes in the buffers of capacity SHAPES. */
+class ShapeRows {
+public:
+  ShapeRows(const Scene &scene, const HullNumbers &hulls) : scene_(scene), hulls_(hulls) {}
+
+  void add(const PlacedShape &placed, BodyStatus status)
+  {
+    const Shape &shape = *placed.shape;
+    const Quat q = unit(placed.orientation);
+    const bool is_free = status == BodyStatus::free;
+    const ShapeBox box = shape.type == ShapeType::half_space || is_free
+                             ? ShapeBox{}
+                             : box_around(shape, placed.position, placed.orientation);
+    const uint32_t flags = flags_of(scene_, placed);
+    sizes_.push_back(is_free ? float4{0, 0, 0, 0} : float4_of_vec(kernel_size(shape), placed.radius));
+    flags_.push_back(is_free ? flags_of_free_slot : status == BodyStatus::quarantined ? as_absent(flags) : flags);
+    filters_.insert(filters_.end(), {placed.filter.group, placed.filter.mask});
+    convexes_.insert(convexes_.end(),
+                     {static_cast<uint32_t>(shape.type), shape.hull ? hulls_.at(shape.hull.get()) : 0});
+    poses_.insert(poses_.end(), {float4_of_vec(placed.position, 0), float4{q[0], q[1], q[2], q[3]},
+                                 float4_of_vec(box.center, 0), float4_of_vec(box.half_extents, 0)});
+  }
+
+  /* The flags come last, because they decide whether a body takes part. */
+  void stage(StagedUploads &uploads, size_t first)
+  {
+    uploads.add(Buffer::body_shape, std::move(sizes_), first);
+    uploads.add(Buffer::body_filter, std::move(filters_), first);
+    uploads.add(Buffer::body_convex, std::move(convexes_), first);
+    uploads.add(Buffer::body_shape_pose, std::move(poses_), first);
+    uploads.add(Buffer::body_flags, std::move(flags_), first);
+  }
+
+private:
+  const Scene &scene_;
+  const HullNumbers &hulls_;
+  std::vector<float4> sizes_, poses_;
+  std::vector<uint32_t> flags_, filters_, convexes_;
+};
 
 float inverse_mass_of(const Body &body) { return body.type == BodyType::dynamic ? 1.0f / body.mass : 0.0f; }
 
@@ -101,52 +137,108 @@ Quat unit(const Quat &q)
           round_to_float(q[3] / length)};
 }
 
-void upload_bodies(Memory &memory, const Scene &scene, const std::vector<uint32_t> &order)
-{
-  const size_t n = order.size();
-  std::vector<float4> mass(2 * n), position(2 * n), orientation(n), velocity(2 * n);
-  for (size_t i = 0; i < n; ++i) {
-    const Body &body = scene.bodies[order[i]];
+namespace {
+
+struct MassRows {
+  std::vector<float4> mass;
+
+  void add(const Scene &scene, const Body &body)
+  {
+    mass.push_back(float4_of_vec(inverse_inertia_of(scene, body), body.gravity_factor));
+    mass.push_back({body.linear_damping, body.angular_damping, 0, 0});
+  }
+};
+
+struct StateRows {
+  std::vector<float4> position, orientation, velocity;
+
+  void add(const Body &body)
+  {
     const Quat q = unit(body.orientation);
-    mass[2 * i] = float4_of_vec(inverse_inertia_of(scene, body), body.gravity_factor);
-    mass[2 * i + 1] = {body.linear_damping, body.angular_damping, 0, 0};
     const auto place = double_float3_of(body.position);
-    std::copy(place.begin(), place.end(), &position[2 * i]);
-    orientation[i] = {q[0], q[1], q[2], q[3]};
-    velocity[2 * i] = float4_of_vec(velocity_of(body, body.linear_velocity), inverse_mass_of(body));
-    velocity[2 * i + 1] = float4_of_vec(velocity_of(body, body.angular_velocity), body.gravity_factor);
+    position.insert(position.end(), place.begin(), place.end());
+    orientation.push_back({q[0], q[1], q[2], q[3]});
+    velocity.push_back(float4_of_vec(velocity_of(body, body.linear_velocity), inverse_mass_of(body)));
+    velocity.push_back(float4_of_vec(velocity_of(body, body.angular_velocity), body.gravity_factor));
   }
-  upload_all(memory, Buffer::body_mass, mass);
-  upload_all(memory, Buffer::body_position, position);
-  upload_all(memory, Buffer::body_orientation, orientation);
-  upload_all(memory, Buffer::body_velocity, velocity);
-}
+  void stage(StagedUploads &uploads, size_t first)
+  {
+    uploads.add(Buffer::body_position, std::move(position), first);
+    uploads.add(Buffer::body_orientation, std::move(orientation), first);
+    uploads.add(Buffer::body_velocity, std::move(velocity), first);
+  }
+};
 
-void upload_shapes(Memory &memory, const Scene &scene, const std::vector<uint32_t> &order)
+} // namespace
+
+void stage_bodies(StagedUploads &uploads, const Scene &scene, const std::vector<uint32_t> &order)
 {
-  const std::map<const ConvexHull *, uint32_t> hulls = hull_numbers(scene);
-  std::vector<float4> sizes, poses;
-  std::vector<uint32_t> flags, filters, convexes;
-  for (const PlacedShape &placed : placed_shapes(scene, order)) {
-    const Shape &shape = *placed.shape;
-    const Quat q = unit(placed.orientation);
-    const ShapeBox box =
-        shape.type == ShapeType::half_space ? ShapeBox{} : box_around(shape, placed.position, placed.orientation);
-    sizes.push_back(float4_of_vec(kernel_size(shape), placed.radius));
-    flags.push_back(flags_of(scene, placed));
-    filters.insert(filters.end(), {placed.filter.group, placed.filter.mask});
-    convexes.insert(convexes.end(), {static_cast<uint32_t>(shape.type), shape.hull ? hulls.at(shape.hull.get()) : 0});
-    poses.insert(poses.end(), {float4_of_vec(placed.position, 0), float4{q[0], q[1], q[2], q[3]},
-                               float4_of_vec(box.center, 0), float4_of_vec(box.half_extents, 0)});
-  }
-  upload_all(memory, Buffer::body_shape, sizes);
-  upload_all(memory, Buffer::body_flags, flags);
-  upload_all(memory, Buffer::body_filter, filters);
-  upload_all(memory, Buffer::body_convex, convexes);
-  upload_all(memory, Buffer::body_shape_pose, poses);
+  stage_masses(uploads, scene, order);
+  StateRows rows;
+  for (const uint32_t body : order) rows.add(scene.bodies[body]);
+  rows.stage(uploads, 0);
 }
 
-void upload_materials(Memory &memory, const Scene &scene)
+void stage_masses(StagedUploads &uploads, const Scene &scene, const std::vector<uint32_t> &order)
+{
+  MassRows rows;
+  for (const uint32_t body : order) rows.add(scene, scene.bodies[body]);
+  uploads.add(Buffer::body_mass, std::move(rows.mass));
+}
+
+void stage_shapes(StagedUploads &uploads, const Scene &scene, const std::vector<uint32_t> &order, uint32_t first_child,
+                   const std::vector<BodyStatus> &status)
+{
+  const HullNumbers hulls = hull_numbers(scene);
+  ShapeRows bodies(scene, hulls), children(scene, hulls);
+  for (const uint32_t body : order) bodies.add(shape_of_body(scene, scene.bodies[body]), status_of(status, body));
+  for (const uint32_t index : order) {
+    const Body &body = scene.bodies[index];
+    if (status_of(status, index) == BodyStatus::free) continue;
+    const Shape &shape = scene.shapes[body.shape];
+    for (uint32_t k = 0; k < children_of(shape); ++k)
+      children.add(shape_of_child(body, shape.compound->children[k]), status_of(status, index));
+  }
+  children.stage(uploads, first_child);
+  bodies.stage(uploads, 0);
+}
+
+void stage_new_bodies(StagedUploads &uploads, const Scene &scene, const HullNumbers &hulls, std::span<const uint32_t> bodies,
+                       uint32_t first)
+{
+  MassRows masses;
+  StateRows states;
+  ShapeRows shapes(scene, hulls);
+  for (const uint32_t index : bodies) {
+    const Body &body = scene.bodies[index];
+    masses.add(scene, body);
+    states.add(body);
+    shapes.add(shape_of_body(scene, body), BodyStatus::present);
+  }
+  uploads.add(Buffer::body_mass, std::move(masses.mass), first);
+  uploads.add(Buffer::body_force, std::vector<float4>(2 * bodies.size()), first);
+  uploads.add(Buffer::body_tree, std::vector<uint32_t>(2 * bodies.size(), INDEX_NONE), first);
+  states.stage(uploads, first);
+  shapes.stage(uploads, first);
+}
+
+void stage_states(StagedUploads &uploads, const Scene &scene, std::span<const uint32_t> bodies, uint32_t first)
+{
+  StateRows states;
+  for (const uint32_t body : bodies) states.add(scene.bodies[body]);
+  states.stage(uploads, first);
+}
+
+void stage_free_rows(StagedUploads &uploads, uint32_t first, uint32_t bodies)
+{
+  const std::vector<float4> zeros(2 * size_t{bodies});
+  uploads.add(Buffer::body_flags, std::vector<uint32_t>(bodies, flags_of_free_slot), first);
+  uploads.add(Buffer::body_velocity, zeros, first);
+  uploads.add(Buffer::body_force, zeros, first);
+  uploads.add(Buffer::body_shape, std::vector<float4>(bodies), first);
+}
+
+void stage_materials(StagedUploads &uploads, const Scene &scene)
 {
   std::vector<float4> rows, rolling;
   for (const Material &material : scene.materials) {
@@ -155,13 +247,13 @@ void upload_materials(Memory &memory, const Scene &scene)
     rows.push_back({material.static_friction, material.dynamic_friction, material.restitution, rules});
     rolling.push_back({material.rolling_friction, material.spinning_friction, 0, 0});
   }
-  upload_all(memory, Buffer::material, rows);
-  upload_all(memory, Buffer::material_rolling, rolling);
+  uploads.add(Buffer::material, std::move(rows));
+  uploads.add(Buffer::material_rolling, std::move(rolling));
 }
 
 namespace {
 
-/* Writes all but the flags. Everything that can fail comes before the first change. */
+/* Writes all but the flags. Everything that can fail for lack of memory comes before the first change. */
 void write_state(Memory &memory, uint32_t index, const BodyRecord &record)
 {
   for (const Buffer buffer : {Buffer::body_position, Buffer::body_orientation, Buffer::body_velocity})
@@ -202,6 +294,24 @@ void upload_body(Memory &memory, uint32_t index, const BodyState &state)
   write_state(memory, index, {place, orientation, {linear, angular}, 0});
 }
 
+namespace {
+
+BodyState state_of(const float4 *position, const float4 &orientation, const float4 *velocity)
+{
+  return {point_of(position),
+          {orientation.x, orientation.y, orientation.z, orientation.w},
+          vec_of_float4(velocity[0]),
+          vec_of_float4(velocity[1])};
+}
+
+} // namespace
+
+BodyState download_body(Memory &memory, uint32_t index)
+{
+  const BodyRecord record = read_body(memory, index);
+  return state_of(record.position.data(), record.orientation, record.velocity.data());
+}
+
 std::vector<BodyState> download_bodies(Memory &memory, const std::vector<uint32_t> &order)
 {
   const size_t n = order.size();
@@ -210,10 +320,7 @@ std::vector<BodyState> download_bodies(Memory &memory, const std::vector<uint32_
   const auto velocity = memory.read<float4>(Buffer::body_velocity, 2 * n);
   std::vector<BodyState> states(n);
   for (size_t i = 0; i < n; ++i)
-    states[order[i]] = {point_of(&position[2 * i]),
-                        {orientation[i].x, orientation[i].y, orientation[i].z, orientation[i].w},
-                        vec_of_float4(velocity[2 * i]),
-                        vec_of_float4(velocity[2 * i + 1])};
+    states[order[i]] = state_of(&position[2 * i], orientation[i], &velocity[2 * i]);
   return states;
 }
 
@@ -250,7 +357,7 @@ void quarantine_body(Memory &memory, uint32_t index)
     if (!std::isfinite(x)) record.position = {};
   record.orientation = {0, 0, 0, 1};
   record.velocity = {};
-  record.flags = (record.flags & ~(3u << 3)) | uint32_t{BODY_TYPE_QUARANTINED} << 3;
+  record.flags = as_absent(record.flags);
   write_body(memory, index, record);
 }
 

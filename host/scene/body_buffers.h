@@ -2,11 +2,15 @@
  * these records. */
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include <tandem/world.h>
 
 #include "host/runtime/memory.h"
+#include "host/scene/body_status.h"
+#include "host/scene/hull_buffers.h"
+#include "host/scene/staged_uploads.h"
 #include "shared/platform.h"
 
 namespace tandem {
@@ -16,13 +20,24 @@ std::array<float4, 2> double_float3_of(const Point &p);
 /* The quaternion at length 1; unchanged if it has that length already. */
 Quat unit(const Quat &q);
 
-/* Buffer index i holds scene body order[i]. */
-void upload_bodies(Memory &memory, const Scene &scene, const std::vector<uint32_t> &order);
-/* Uploads size, flags, filter and pose of every body's shape, then of the children of compounds. Poses are uploaded
- * even for bodies with pair tests of their own, because any of them may meet a shape that has none. */
-void upload_shapes(Memory &memory, const Scene &scene, const std::vector<uint32_t> &order);
-void upload_materials(Memory &memory, const Scene &scene);
+/* Buffer index i holds scene body order[i]: masses and the initial state. */
+void stage_bodies(StagedUploads &uploads, const Scene &scene, const std::vector<uint32_t> &order);
+void stage_masses(StagedUploads &uploads, const Scene &scene, const std::vector<uint32_t> &order);
+/* Stages size, flags, filter and pose of every body's shape, then of the children of compounds, from the index
+ * first_child on. Poses are uploaded even for bodies with pair tests of their own, because any of them may meet a shape
+ * that has none. status: by body of the scene; empty: all are present. */
+void stage_shapes(StagedUploads &uploads, const Scene &scene, const std::vector<uint32_t> &order, uint32_t first_child,
+                   const std::vector<BodyStatus> &status = {});
+/* Stages all rows of bodies without children, to the indices from `first` on. */
+void stage_new_bodies(StagedUploads &uploads, const Scene &scene, const HullNumbers &hulls, std::span<const uint32_t> bodies,
+                       uint32_t first);
+/* Stages the initial state of bodies, to the indices from `first` on. */
+void stage_states(StagedUploads &uploads, const Scene &scene, std::span<const uint32_t> bodies, uint32_t first);
+/* Makes slots free: points at rest that take part in nothing, where the bodies were. */
+void stage_free_rows(StagedUploads &uploads, uint32_t first, uint32_t bodies);
+void stage_materials(StagedUploads &uploads, const Scene &scene);
 void upload_body(Memory &memory, uint32_t index, const BodyState &state);
+BodyState download_body(Memory &memory, uint32_t index);
 std::vector<BodyState> download_bodies(Memory &memory, const std::vector<uint32_t> &order);
 std::vector<PreciseBodyState> download_precise_bodies(Memory &memory, const std::vector<uint32_t> &order);
 

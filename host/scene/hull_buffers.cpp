@@ -6,7 +6,6 @@
 #include <tandem/round_to_float.h>
 
 #include "host/geometry/convex_hull.h"
-#include "host/scene/buffer_upload.h"
 #include "host/scene/hull_chunks.h"
 #include "shared/platform.h"
 
@@ -81,26 +80,26 @@ HullSizes hull_sizes(const Scene &scene, uint32_t map_side)
   return sizes;
 }
 
-std::map<const ConvexHull *, uint32_t> hull_numbers(const Scene &scene)
+HullNumbers hull_numbers(const Scene &scene)
 {
-  std::map<const ConvexHull *, uint32_t> numbers;
+  HullNumbers numbers;
   for (const ConvexHull *hull : distinct_hulls(scene)) numbers.emplace(hull, static_cast<uint32_t>(numbers.size()));
   return numbers;
 }
 
-void upload_hulls(Memory &memory, const Scene &scene, uint32_t map_side)
+void stage_hulls(StagedUploads &uploads, const Scene &scene, uint32_t map_side)
 {
   Tables tables;
   for (const ConvexHull *hull : distinct_hulls(scene)) tables.add(*hull, map_side);
   tables.face_starts.push_back(static_cast<uint32_t>(tables.corners.size()));
-  upload_all(memory, Buffer::hull_header, tables.headers);
-  upload_all(memory, Buffer::hull_vertex, tables.vertices);
-  upload_all(memory, Buffer::hull_plane, tables.planes);
-  upload_all(memory, Buffer::hull_face_start, tables.face_starts);
-  upload_all(memory, Buffer::hull_corner, tables.corners);
-  upload_all(memory, Buffer::hull_edge, tables.edges);
-  upload_all(memory, Buffer::hull_chunk, tables.chunks);
-  upload_all(memory, Buffer::hull_link, tables.links);
+  uploads.add(Buffer::hull_header, std::move(tables.headers));
+  uploads.add(Buffer::hull_vertex, std::move(tables.vertices));
+  uploads.add(Buffer::hull_plane, std::move(tables.planes));
+  uploads.add(Buffer::hull_face_start, std::move(tables.face_starts));
+  uploads.add(Buffer::hull_corner, std::move(tables.corners));
+  uploads.add(Buffer::hull_edge, std::move(tables.edges));
+  uploads.add(Buffer::hull_chunk, std::move(tables.chunks));
+  uploads.add(Buffer::hull_link, std::move(tables.links));
 }
 
 } // namespace tandem

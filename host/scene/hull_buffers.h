@@ -6,7 +6,7 @@
 
 #include <tandem/scene.h>
 
-#include "host/runtime/memory.h"
+#include "host/scene/staged_uploads.h"
 
 namespace tandem {
 
@@ -18,8 +18,9 @@ struct HullSizes {
 HullSizes hull_sizes(const Scene &scene, uint32_t map_side);
 
 /* The index of each hull in the tables, including the hulls of children. */
-std::map<const ConvexHull *, uint32_t> hull_numbers(const Scene &scene);
+using HullNumbers = std::map<const ConvexHull *, uint32_t>;
+HullNumbers hull_numbers(const Scene &scene);
 
-void upload_hulls(Memory &memory, const Scene &scene, uint32_t map_side);
+void stage_hulls(StagedUploads &uploads, const Scene &scene, uint32_t map_side);
 
 } // namespace tandem

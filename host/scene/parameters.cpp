@@ -6,7 +6,6 @@
 
 #include <tandem/round_to_float.h>
 
-#include "host/scene/specialise.h"
 
 namespace tandem {
 namespace {
@@ -27,15 +26,15 @@ SoftContact soft_contact(double hertz, double damping_ratio, double h)
 
 /* Cells of two-stage batching are four bodies wide. If sizes are much alike, that is more than two of the largest body,
  * so cells of one class share no body; and a cell holds few enough contacts that one work-group can process it. */
-float inverse_batch_cell(const Scene &scene)
+float inverse_batch_cell(float median)
 {
-  const float edge = 8 * median_radius(scene);
+  const float edge = 8 * median;
   return edge > 0 ? 1 / edge : 1.0f;
 }
 
 } // namespace
 
-Parameters parameters_of(const Scene &scene, const Settings &settings, Features features)
+Parameters parameters_of(const Scene &scene, const Settings &settings, Features features, float median)
 {
   const double h = static_cast<double>(settings.step) / settings.substeps;
   /* Above a fifth of the substep rate, the bias raises bodies under load faster than the leak lets them sink, and tall
@@ -62,8 +61,8 @@ Parameters parameters_of(const Scene &scene, const Settings &settings, Features 
   p.speculative_distance = 4 * settings.slop;
   p.bounds_margin = 0.5f * p.speculative_distance;
   p.restitution_speed = settings.restitution_speed;
-  p.hybrid_cell = 4 * median_radius(scene);
-  p.inverse_batch_cell = inverse_batch_cell(scene);
+  p.hybrid_cell = 4 * median;
+  p.inverse_batch_cell = inverse_batch_cell(median);
   p.features = features;
   return p;
 }

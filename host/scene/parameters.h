@@ -10,6 +10,7 @@
 
 namespace tandem {
 
-Parameters parameters_of(const Scene &scene, const Settings &settings, Features features);
+/* median: Specialisation::median. */
+Parameters parameters_of(const Scene &scene, const Settings &settings, Features features, float median);
 
 } // namespace tandem

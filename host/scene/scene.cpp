@@ -276,6 +276,22 @@ std::string volume_doubt(const Shape &shape)
 
 } // namespace
 
+void validate(const Scene &scene, const Body &body, size_t index, const std::string &where)
+{
+  check_body(body, scene, {where, "body", index, body.name});
+}
+
+void validate(const Shape &shape, size_t index, const std::string &where)
+{
+  const std::string unnamed;
+  check_shape(shape, {where, "shape", index, unnamed});
+}
+
+void validate(const Material &material, size_t index, const std::string &where)
+{
+  check_material(material, {where, "material", index, material.name});
+}
+
 void validate(const Scene &scene, const std::string &where)
 {
   if (!is_finite_vector(scene.gravity))
@@ -283,12 +299,9 @@ void validate(const Scene &scene, const std::string &where)
   if (scene.materials.empty()) refuse(where, "materials", "there are none; a scene needs at least one");
   if (scene.materials.size() > MOST_MATERIALS)
     refuse(where, "materials", fmt::format("there are {}; at most {}", scene.materials.size(), MOST_MATERIALS));
-  const std::string unnamed;
-  for (size_t i = 0; i < scene.shapes.size(); ++i) check_shape(scene.shapes[i], {where, "shape", i, unnamed});
-  for (size_t i = 0; i < scene.materials.size(); ++i)
-    check_material(scene.materials[i], {where, "material", i, scene.materials[i].name});
-  for (size_t i = 0; i < scene.bodies.size(); ++i)
-    check_body(scene.bodies[i], scene, {where, "body", i, scene.bodies[i].name});
+  for (size_t i = 0; i < scene.shapes.size(); ++i) validate(scene.shapes[i], i, where);
+  for (size_t i = 0; i < scene.materials.size(); ++i) validate(scene.materials[i], i, where);
+  for (size_t i = 0; i < scene.bodies.size(); ++i) validate(scene, scene.bodies[i], i, where);
 }
 
 std::vector<std::string> warnings_of(const Scene &scene, const std::string &where)

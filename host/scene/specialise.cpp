@@ -139,6 +139,11 @@ bool spins_unevenly(const Scene &scene, const Body &body)
   return is_dynamic(body) && (inverse[0] != inverse[1] || inverse[1] != inverse[2]);
 }
 
+bool is_damped(const Body &body)
+{
+  return is_dynamic(body) && (body.linear_damping > 0 || body.angular_damping > 0);
+}
+
 bool meet(const Filter &a, const Filter &b) { return (a.group & b.mask) != 0 && (b.group & a.mask) != 0; }
 
 /* Visits the filters and materials of a body's shape, or of its children's. */
@@ -186,28 +191,29 @@ Features body_features(const Scene &scene)
     for_each_material(scene, body, [&](const Material &material) { features |= features_of(material); });
     if (spins_unevenly(scene, body)) features |= FEATURE_GYROSCOPIC;
     if (body.continuous) features |= FEATURE_CONTINUOUS;
-    if (is_dynamic(body) && (body.linear_damping > 0 || body.angular_damping > 0)) features |= FEATURE_DAMPING;
+    if (is_damped(body)) features |= FEATURE_DAMPING;
   }
   if (filters(scene)) features |= FEATURE_FILTER;
   if (has_triggers(scene)) features |= FEATURE_TRIGGER;
   return features;
 }
 
+/* A fast body has bounds as large as its displacement. */
+bool is_large(float radius, const Body &body, float median) { return radius > large_ratio * median || body.continuous; }
+
 struct LargeBodies {
   std::vector<uint32_t> unbounded, large;
 };
 
-LargeBodies large_bodies(const Scene &scene)
+LargeBodies large_bodies(const Scene &scene, float median)
 {
-  const float limit = large_ratio * median_radius(scene);
   std::vector<float> radii;
   for (const Body &body : scene.bodies) radii.push_back(bounding_radius(scene, body));
   const auto radius = [&](uint32_t body) { return radii[body]; };
   std::vector<uint32_t> unbounded, large;
   for (uint32_t body = 0; body < scene.bodies.size(); ++body) {
     if (scene.shapes[scene.bodies[body].shape].type == ShapeType::half_space) unbounded.push_back(body);
-    else if (radius(body) > limit || scene.bodies[body].continuous)
-      large.push_back(body); /* a fast body has bounds as large as its displacement */
+    else if (is_large(radius(body), scene.bodies[body], median)) large.push_back(body);
   }
   std::stable_sort(large.begin(), large.end(), [&](uint32_t a, uint32_t b) { return radius(a) > radius(b); });
   if (large.size() > most_large_bodies) large.resize(most_large_bodies);
@@ -274,15 +280,32 @@ Features all_features()
   return all;
 }
 
+bool is_large(const Scene &scene, const Body &body, float median)
+{
+  return is_large(bounding_radius(scene, body), body, median);
+}
+
+BodyKind kind_of(const Scene &scene, const Body &body)
+{
+  return {body.shape,   body.material,   body.filter_group, body.filter_mask,            body.type,
+          body.trigger, body.continuous, is_posed(body),    spins_unevenly(scene, body), is_damped(body)};
+}
+
+Features features_of(const Scene &scene, const Settings &settings)
+{
+  const Features pairs = pair_features(presence_of(scene));
+  Features features = pairs | list_features(pairs) | convex_features(scene) | body_features(scene);
+  features |= narrowphase_features(scene, features, settings) | support_features(features, settings);
+  if (settings.events) features |= FEATURE_EVENTS;
+  return features;
+}
+
 Specialisation specialise(const Scene &scene, const Settings &settings)
 {
   Specialisation result;
-  const Features pairs = pair_features(presence_of(scene));
-  result.features = pairs | list_features(pairs) | convex_features(scene) | body_features(scene);
-  result.features |=
-      narrowphase_features(scene, result.features, settings) | support_features(result.features, settings);
-  if (settings.events) result.features |= FEATURE_EVENTS;
-  const LargeBodies first = large_bodies(scene);
+  result.features = features_of(scene, settings);
+  result.median = median_radius(scene);
+  const LargeBodies first = large_bodies(scene, result.median);
   result.order = first.unbounded;
   result.order.insert(result.order.end(), first.large.begin(), first.large.end());
   result.unbounded = static_cast<uint32_t>(first.unbounded.size());

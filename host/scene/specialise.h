@@ -5,6 +5,7 @@
  */
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <vector>
 
@@ -29,9 +30,25 @@ struct Specialisation {
   std::vector<uint32_t> order;
   uint32_t unbounded = 0; /* half-spaces */
   uint32_t large = 0;     /* half-spaces and large bodies */
+  float median = 0;       /* m, of the bounding radii; it decides which bodies are large */
 };
 
 Specialisation specialise(const Scene &scene, const Settings &settings);
+
+/* The features alone. */
+Features features_of(const Scene &scene, const Settings &settings);
+
+/* What specialisation reads of a body. A body of the kind of another one brings no feature that this one did not. */
+struct BodyKind {
+  uint32_t shape, material, filter_group, filter_mask;
+  BodyType type;
+  bool trigger, continuous, posed, uneven, damped;
+  auto operator<=>(const BodyKind &) const = default;
+};
+BodyKind kind_of(const Scene &scene, const Body &body);
+
+/* True for a body that is large beside others of this median radius, or whose bounds are. */
+bool is_large(const Scene &scene, const Body &body, float median);
 
 /* All features that the shapes of a scene could need, for comparing builds. */
 Features all_features();

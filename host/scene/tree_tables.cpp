@@ -8,7 +8,6 @@
 
 #include "host/geometry/bvh.h"
 #include "host/geometry/shape_mass.h"
-#include "host/scene/buffer_upload.h"
 #include "host/scene/shape_bounds.h"
 #include "shared/counts.h"
 #include "shared/midphase/tree.h"
@@ -144,23 +143,24 @@ uint32_t children_of(const Shape &shape) { return shape.compound ? count_of(shap
 
 TreeTables tree_tables(const Scene &scene) { return TableBuilder(scene).build(); }
 
-void upload_trees(Memory &memory, const Scene &scene, const TreeTables &tables, const std::vector<uint32_t> &order)
+void stage_trees(StagedUploads &uploads, const Scene &scene, const TreeTables &tables, const std::vector<uint32_t> &order,
+                  uint32_t first_child, const std::vector<BodyStatus> &status)
 {
   std::vector<uint32_t> body_trees;
-  uint32_t next_child = count_of(order.size());
+  uint32_t next_child = first_child;
   for (uint32_t index : order) {
     const uint32_t shape = scene.bodies[index].shape;
     body_trees.insert(body_trees.end(), {tables.tree_of_shape[shape], next_child});
-    next_child += children_of(scene.shapes[shape]);
+    if (status_of(status, index) != BodyStatus::free) next_child += children_of(scene.shapes[shape]);
   }
-  upload_all(memory, Buffer::body_tree, body_trees);
-  upload_all(memory, Buffer::tree_header, tables.headers);
-  upload_all(memory, Buffer::tree_frame, tables.frames);
-  upload_all(memory, Buffer::tree_node, tables.nodes);
-  upload_all(memory, Buffer::tree_leaf, tables.leaves);
-  upload_all(memory, Buffer::tree_subtree, tables.subtrees);
-  upload_all(memory, Buffer::mesh_vertex, tables.vertices);
-  upload_all(memory, Buffer::mesh_triangle, tables.triangles);
+  uploads.add(Buffer::body_tree, std::move(body_trees));
+  uploads.add(Buffer::tree_header, tables.headers);
+  uploads.add(Buffer::tree_frame, tables.frames);
+  uploads.add(Buffer::tree_node, tables.nodes);
+  uploads.add(Buffer::tree_leaf, tables.leaves);
+  uploads.add(Buffer::tree_subtree, tables.subtrees);
+  uploads.add(Buffer::mesh_vertex, tables.vertices);
+  uploads.add(Buffer::mesh_triangle, tables.triangles);
 }
 
 } // namespace tandem

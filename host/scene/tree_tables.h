@@ -12,7 +12,8 @@
 
 #include <tandem/scene.h>
 
-#include "host/runtime/memory.h"
+#include "host/scene/body_status.h"
+#include "host/scene/staged_uploads.h"
 #include "shared/platform.h"
 
 namespace tandem {
@@ -36,7 +37,8 @@ TreeTables tree_tables(const Scene &scene);
 /* The number of children of a shape: 0 unless it is a compound. */
 uint32_t children_of(const Shape &shape);
 
-/* order: that of the bodies in the buffers. */
-void upload_trees(Memory &memory, const Scene &scene, const TreeTables &tables, const std::vector<uint32_t> &order);
+/* order: that of the bodies in the buffers. first_child: the index of the first child among the shapes. */
+void stage_trees(StagedUploads &uploads, const Scene &scene, const TreeTables &tables, const std::vector<uint32_t> &order,
+                  uint32_t first_child, const std::vector<BodyStatus> &status = {});
 
 } // namespace tandem

@@ -39,7 +39,7 @@ void World::Implementation::check_write(Buffer buffer, size_t bytes, size_t offs
 void World::Implementation::write(Buffer buffer, const void *from, size_t bytes, size_t offset)
 {
   check_write(buffer, bytes, offset);
-  restore_bodies(); /* where the last attempt of a step could not: not over what is written now */
+  settle(); /* not over what is written now */
   if (!is_sized_by_writes(buffer) || offset > 0 || memory.bytes(buffer) == bytes)
     return memory.upload(buffer, from, bytes, offset);
   memory.assign(buffer, from, bytes);
@@ -58,7 +58,7 @@ void World::Implementation::keep_unwritten() noexcept
 /* Runs between two steps. What broadphases keep is invalidated, because the kernel may have changed bodies. */
 void World::Implementation::run(Kernel kernel, const Values &values, const Slots &slots)
 {
-  restore_bodies(); /* needed if the last attempt of a step could not */
+  settle();
   buffers.make_ready(sizes());
   ++state;
   begin_launches();

@@ -7,6 +7,7 @@
 #include "host/pipeline/broadphases/choice.h"
 #include "host/pipeline/scene_counts.h"
 #include "host/pipeline/setting_rows.h"
+#include "host/runtime/interface/module.h"
 #include "host/runtime/recorder.h"
 #include "host/scene/parameters.h"
 #include "shared/batching/limits.h"
@@ -32,9 +33,10 @@ World::Implementation::Implementation(const Scene &given, const Settings &chosen
     : scene(given), settings(resolved(chosen, given, placement)), special(specialise(given, chosen)),
       hulls(hull_sizes(given, cube_map_cells(chosen))), trees(tree_tables(given)), scene_features(special.features),
       backends(placement, chosen.specialise ? special.features : all_features()), buffers(memory, backends),
-      launcher(memory, [this](Kernel kernel) -> Backend & { return backends.of(kernel); })
+      slots(static_cast<uint32_t>(given.bodies.size())), launcher(memory, [this](Kernel kernel) -> Backend & { return backends.of(kernel); })
 {
   launcher.set_on_commit([this] { turn(); });
+  plan.forces = module_applies_forces();
   if (!settings.specialise) special.features = all_features();
   plan.features = special.features;
   plan.bodies = static_cast<uint32_t>(scene.bodies.size());
@@ -101,26 +103,41 @@ void World::Implementation::place_again()
 
 void World::Implementation::upload_scene()
 {
-  upload_bodies(memory, scene, special.order);
-  upload_shapes(memory, scene, special.order);
-  upload_hulls(memory, scene, cube_map_cells(settings));
-  upload_trees(memory, scene, trees, special.order);
-  trees = {trees.sizes, {}, {}, {}, {}, {}, {}, {}, {}}; /* the buffers hold the rest */
-  upload_materials(memory, scene);
-  upload_parameters();
-  std::vector<uint32_t> counts(COUNT_TOTAL);
-  for (const auto &[entry, value] : scene_entries) counts[entry] = value;
-  counts[CAPACITY_PAIRS] = plan.capacity_pairs;
-  counts[CAPACITY_CELLS] = plan.capacity_cells;
-  memory.upload(Buffer::counts, counts.data(), counts.size() * sizeof(uint32_t));
-  index_of_body.resize(plan.bodies);
-  for (uint32_t i = 0; i < plan.bodies; ++i) index_of_body[special.order[i]] = i;
+  StagedUploads uploads;
+  stage_bodies(uploads, scene, special.order);
+  stage_tables(uploads);
+  stage_counts(uploads);
+  uploads.write(memory);
+  number_bodies();
 }
 
-void World::Implementation::upload_parameters()
+/* The tables of shapes, materials and parameters, which only calls of the user change. */
+void World::Implementation::stage_tables(StagedUploads &uploads)
 {
-  const Parameters parameters = parameters_of(scene, settings, special.features);
-  memory.upload(Buffer::parameters, &parameters, sizeof parameters);
+  stage_shapes(uploads, scene, special.order, plan.bodies, slots.status());
+  stage_hulls(uploads, scene, cube_map_cells(settings));
+  stage_trees(uploads, scene, trees, special.order, plan.bodies, slots.status());
+  trees = {trees.sizes, {}, {}, {}, {}, {}, {}, {}, {}}; /* the buffers hold the rest */
+  stage_materials(uploads, scene);
+  uploads.add(Buffer::parameters,
+              std::vector<Parameters>{parameters_of(scene, settings, special.features, special.median)});
+  uploaded_shapes = scene.shapes.size();
+  uploaded_materials = scene.materials.size();
+}
+
+/* The counts that kernels never change. */
+void World::Implementation::stage_counts(StagedUploads &uploads) const
+{
+  for (const auto &[entry, value] : scene_entries)
+    uploads.add_count(static_cast<uint32_t>(entry), value);
+  uploads.add_count(CAPACITY_PAIRS, plan.capacity_pairs);
+  uploads.add_count(CAPACITY_CELLS, plan.capacity_cells);
+}
+
+void World::Implementation::number_bodies()
+{
+  index_of_body.resize(scene.bodies.size());
+  for (uint32_t i = 0; i < special.order.size(); ++i) index_of_body[special.order[i]] = i;
 }
 
 /* Before the first step the host knows no counts, so launches are sized as if the buffers were full. */
@@ -130,17 +147,32 @@ void World::Implementation::guess_counts() noexcept
   known.fill(plan.capacity_pairs);
   known[COUNT_KEPT] = 0;
   for (const auto &[entry, value] : scene_entries) known[entry] = value;
-  known[COUNT_COMMIT_BODIES] = plan.bodies;
-  known[COUNT_COMMIT_BODIES_PLUS_ONE] = plan.bodies + 1;
+  known[COUNT_COMMIT_BODIES] = bodies();
+  known[COUNT_COMMIT_BODIES_PLUS_ONE] = bodies() + 1;
   known[COUNT_CELLS_PLUS_ONE] = plan.capacity_cells + 1;
   for (uint32_t color = 0; color <= COLOR_LIMIT; ++color)
     known[COLOR_START + color] = static_cast<uint32_t>(uint64_t{plan.capacity_pairs} * color / 8);
+}
+
+/* A module that reads or writes solver_force in any of its kernels takes part in the forces of a substep. */
+bool World::Implementation::module_applies_forces() const
+{
+  const auto names_force = [](const Argument &argument) {
+    return argument.kind == Argument::Kind::buffer && argument.buffer == Buffer::solver_force;
+  };
+  for (const Extension &extension : settings.extensions)
+    for (size_t i = 0; i < extension.module->kernels(); ++i) {
+      const auto &arguments = extension.module->kernel_row(i).arguments;
+      if (std::any_of(arguments.begin(), arguments.end(), names_force)) return true;
+    }
+  return false;
 }
 
 /* The structure is made once for all queries between two changes of the state. */
 QueryTarget World::Implementation::query_target()
 {
   const uint32_t structure = row_of(settings.broadphase).queries;
+  settle();
   if (structure_state != state) {
     Recorder recorder;
     StepLaunches recorded(recorder, plan, settings), launches(launcher, plan, settings);

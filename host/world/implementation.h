@@ -8,6 +8,8 @@
 
 #include <cstdint>
 #include <optional>
+#include <set>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -20,6 +22,8 @@
 #include "host/scene/hull_buffers.h"
 #include "host/scene/specialise.h"
 #include "host/scene/tree_tables.h"
+#include "host/world/body_slots.h"
+#include "host/world/commands.h"
 #include "host/world/placed_backends.h"
 #include "host/world/queries.h"
 #include "host/world/step_buffers.h"
@@ -42,7 +46,10 @@ struct World::Implementation {
   void place(const Placement &placement);
   void place_again(); /* if other kernels are needed than before */
   void upload_scene();
-  void upload_parameters();
+  void stage_tables(StagedUploads &uploads);
+  void stage_counts(StagedUploads &uploads) const;
+  void number_bodies();
+  bool module_applies_forces() const;
   void guess_counts() noexcept;
   QueryTarget query_target();
 
@@ -68,6 +75,39 @@ struct World::Implementation {
   void quarantine_from(uint32_t code);
   void quarantine(uint32_t index, uint32_t stage);
 
+  /* --- calls between two steps: calls.cpp ------------------------------------------------------------------------ */
+  void settle();
+  std::vector<uint32_t> indices_of(const char *call, std::span<const BodyId> ids) const;
+  std::vector<BodyState> read(std::span<const BodyId> ids);
+  void set_states(std::span<const BodyId> ids, std::span<const BodyState> states);
+  void set_velocities(std::span<const BodyId> ids, std::span<const Velocity> velocities);
+  void move_to(std::span<const BodyId> ids, std::span<const Pose> poses);
+  void add_impulses(std::span<const BodyId> ids, std::span<const Impulse> impulses);
+  void add_forces(std::span<const BodyId> ids, std::span<const Force> forces);
+  void use_forces();
+
+  /* --- bodies that come and go: bodies.cpp ----------------------------------------------------------------------- */
+  struct Arrival;
+  class LayoutBackup;
+  uint32_t bodies() const { return static_cast<uint32_t>(special.order.size()); } /* with free slots */
+  const std::vector<uint32_t> &events_order() const
+  {
+    return order_of_events.empty() ? special.order : order_of_events;
+  }
+  BodyRegion region_of(uint32_t index) const;
+  std::vector<BodyId> create(std::span<const Body> bodies);
+  void destroy(std::span<const BodyId> ids);
+  std::vector<uint32_t> distinct_indices(const char *call, std::span<const BodyId> ids) const;
+  uint32_t add_shape(const Shape &shape);
+  uint32_t add_material(const Material &material);
+  void check_new(std::span<const Body> bodies) const;
+  Arrival arrival_of(std::span<const Body> bodies) const;
+  bool brings_tables(const Arrival &arrival);
+  void place_among_others(const Arrival &arrival);
+  void lay_out_anew(const Arrival &arrival);
+  void plan_layout(const Arrival &arrival, std::vector<uint32_t> order);
+  void stage_arrival(StagedUploads &uploads, const Arrival &arrival) const;
+
   /* --- modules of users (host/runtime/interface/module.h): extensions.cpp -------------------------------------- */
   void note_rows(Recorder &recorder, const Module &module) const;
   void check_write(Buffer buffer, size_t bytes, size_t offset) const;
@@ -84,6 +124,7 @@ struct World::Implementation {
   PlacedBackends backends;
   Memory memory;
   StepBuffers buffers;
+  BodySlots slots;
   PlacedLauncher launcher;
   StepPlan plan;
   std::vector<std::pair<int, uint32_t>> scene_entries; /* of counts */
@@ -94,7 +135,11 @@ struct World::Implementation {
   bool whole = true;   /* the last step succeeded; after one that failed there are no events or figures */
   /* Bodies that an unfinished step has quarantined, by their index in the buffers, with their earlier records. */
   std::vector<std::pair<uint32_t, BodyRecord>> taken_out;
-  std::vector<uint32_t> index_of_body;
+  std::vector<uint32_t> index_of_body; /* by slot; for a free one, that of its last body */
+  std::vector<uint32_t> order_of_events; /* the order that the last step had, if it has changed since; else empty */
+  size_t uploaded_shapes = 0, uploaded_materials = 0; /* of the scene, that the tables hold */
+  std::set<BodyKind> known_kinds;                     /* of bodies; filled by the first call that creates some */
+  CommandList commands, force_commands;               /* not applied yet */
   std::vector<Quarantine> quarantined;
   std::optional<BatchFault> fault;
   Statistics statistics;

@@ -68,6 +68,20 @@ void PlacedBackends::place(const Placement &placement, const std::vector<Kernel>
   wanted_ = std::move(wanted);
 }
 
+/* Where some backends had taken the features already when another one failed, they go back to kernels that they have
+ * built before. */
+void PlacedBackends::take_features(Features features, const std::vector<Kernel> &kernels)
+{
+  const Features before = std::exchange(features_, features);
+  try {
+    assign(wanted_, kernels);
+  } catch (...) {
+    features_ = before;
+    for (const auto &[text, backend] : backends_) backend->prepare(before, {});
+    throw;
+  }
+}
+
 Backend &PlacedBackends::of(Kernel kernel)
 {
   Backend *&backend = placed_.at(index_of(kernel));

@@ -21,6 +21,8 @@ public:
    * std::runtime_error), nothing has changed. */
   void place(const Placement &placement, const std::vector<Kernel> &kernels);
   void place_again(const std::vector<Kernel> &kernels) { assign(wanted_, kernels); }
+  /* Builds these kernels for other features, and from now on all others too. If it throws, nothing has changed. */
+  void take_features(Features features, const std::vector<Kernel> &kernels);
   /* Kernels that place() did not name are built when they are first used, and then kept. */
   Backend &of(Kernel kernel);
 

@@ -33,7 +33,7 @@ void World::Implementation::step()
   ++state;
   const Attempt before{plan, statistics, quarantined.size()};
   try {
-    restore_bodies(); /* needed if the last attempt could not */
+    settle();
     buffers.make_ready(sizes());
     run_until_whole();
   } catch (...) {
@@ -79,6 +79,7 @@ void World::Implementation::undo(const Attempt &before) noexcept
   turn_back();
   launches_ended = whole = false;
   statistics = before.statistics;
+  for (size_t i = before.quarantined; i < quarantined.size(); ++i) slots.release(quarantined[i].body);
   quarantined.erase(quarantined.begin() + static_cast<ptrdiff_t>(before.quarantined), quarantined.end());
   const uint32_t capacity = plan.capacity_pairs;
   plan = before.plan;
@@ -102,7 +103,7 @@ void World::Implementation::tell_why_step_failed() const
   const auto told = [&](const char *why) {
     return fmt::format("step {}: {}; of {} bodies, with room for {} pairs, in {} bytes of buffers; the state is that "
                        "before the step",
-                       statistics.steps, why, plan.bodies, plan.capacity_pairs, memory.total_bytes());
+                       statistics.steps, why, slots.existing(), plan.capacity_pairs, memory.total_bytes());
   };
   try {
     throw;
@@ -133,6 +134,7 @@ void World::Implementation::accept()
   keep_unwritten();
   turned = false;
   taken_out.clear();
+  order_of_events.clear();
   ++statistics.steps;
   plan.rounds = std::clamp<uint32_t>(plan.known[COUNT_ROUNDS] + 3, 4, most_rounds);
   plan.colors = std::min(plan.known[COUNT_COLORS] + 1, COLOR_LIMIT);
@@ -146,8 +148,8 @@ void World::Implementation::prepare_repetition(uint32_t status, bool &may_forget
   if (status & STATUS_COLORS) plan.colors = plan.known[COUNT_COLORS];
   if (plan.colors > COLOR_LIMIT && !(status & STATUS_PAIRS)) enlarge(plan.capacity_pairs);
   if (status & STATUS_NONFINITE) quarantine_from(plan.known[COUNT_NONFINITE]);
-  plan.known[COUNT_COMMIT_BODIES] = plan.bodies;
-  plan.known[COUNT_COMMIT_BODIES_PLUS_ONE] = plan.bodies + 1;
+  plan.known[COUNT_COMMIT_BODIES] = bodies();
+  plan.known[COUNT_COMMIT_BODIES_PLUS_ONE] = bodies() + 1;
   plan.known[COUNT_COMMIT_PAIRS] = plan.known[COUNT_PAIRS];
   plan.known[COUNT_COMMIT_CONSTRAINTS] = plan.known[COUNT_CONSTRAINTS];
   if (status & STATUS_PAIRS) grow_pairs(needed, may_forget); /* last, because it forgets the counts */
@@ -205,7 +207,7 @@ void World::Implementation::quarantine_from(uint32_t code)
   const uint32_t first = code & (body_numbers - 1), stage = code / body_numbers;
   quarantine(first, stage);
   if (taken_out.size() > taken_one_by_one)
-    for (const uint32_t body : bodies_not_finite(memory, plan.bodies))
+    for (const uint32_t body : bodies_not_finite(memory, bodies()))
       if (body != first) quarantine(body, stage);
   forget_kept(memory);
 }
@@ -216,8 +218,9 @@ void World::Implementation::quarantine(uint32_t index, uint32_t stage)
   const uint32_t body = special.order[index];
   quarantined.push_back({body, scene.bodies[body].name, stages[stage], statistics.steps});
   ++statistics.nonfinite;
-  taken_out.emplace_back(index, read_body(memory, index)); /* first, so that it can be restored */
+  taken_out.emplace_back(index, tandem::read_body(memory, index)); /* first, so that it can be restored */
   quarantine_body(memory, index);
+  slots.quarantine(body);
 }
 
 } // namespace tandem

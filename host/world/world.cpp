@@ -65,7 +65,7 @@ World::~World() = default;
 void World::step() { implementation_->step(); }
 void World::place(const Placement &placement)
 {
-  answer("the placement", implementation_->plan.bodies, [&] { implementation_->place(placement); });
+  answer("the placement", implementation_->slots.existing(), [&] { implementation_->place(placement); });
 }
 const Scene &World::scene() const { return implementation_->scene; }
 const Settings &World::settings() const { return implementation_->settings; }
@@ -80,21 +80,25 @@ void World::set_observer(Observer observer) { implementation_->launcher.set_obse
 
 std::vector<BodyState> World::bodies()
 {
-  return answer("the bodies", implementation_->plan.bodies,
-                [&] { return download_bodies(implementation_->memory, implementation_->special.order); });
+  return answer("the bodies", implementation_->slots.existing(), [&] {
+    implementation_->settle();
+    return download_bodies(implementation_->memory, implementation_->special.order);
+  });
 }
 
 std::vector<PreciseBodyState> World::precise_bodies()
 {
-  return answer("the bodies", implementation_->plan.bodies,
-                [&] { return download_precise_bodies(implementation_->memory, implementation_->special.order); });
+  return answer("the bodies", implementation_->slots.existing(), [&] {
+    implementation_->settle();
+    return download_precise_bodies(implementation_->memory, implementation_->special.order);
+  });
 }
 
 void World::set_body(uint32_t body, const BodyState &state)
 {
-  if (body >= implementation_->plan.bodies)
-    throw InputError(
-        fmt::format("set_body: body {} does not exist; the scene has {}", body, implementation_->plan.bodies));
+  if (!implementation_->slots.exists(body))
+    throw InputError(fmt::format("set_body: body {} does not exist; the scene has {}", body,
+                                 implementation_->slots.existing()));
   if (!is_finite(state)) throw InputError(fmt::format("set_body: body {} would not be finite", body));
   set_body_unchecked(body, state);
 }
@@ -103,21 +107,92 @@ void World::set_body_unchecked(uint32_t body, const BodyState &state)
 {
   const minicl::ExactFloatingPoint environment;
   ++implementation_->state;
-  answer("a body", implementation_->plan.bodies, [&] {
-    implementation_->restore_bodies(); /* where the last attempt of a step could not: not over what is set now */
+  answer("a body", implementation_->slots.existing(), [&] {
+    implementation_->settle(); /* what was called before comes before */
     upload_body(implementation_->memory, implementation_->index_of_body.at(body), state);
   });
+}
+
+BodyId World::id_of(uint32_t body) const
+{
+  if (!implementation_->slots.exists(body))
+    throw InputError(fmt::format("id_of: body {} does not exist; the world has {}", body,
+                                 implementation_->slots.existing()));
+  return implementation_->slots.id_of(body);
+}
+
+bool World::exists(const BodyId &id) const
+{
+  return implementation_->slots.exists(id.index) && implementation_->slots.id_of(id.index) == id;
+}
+
+uint32_t World::body_count() const { return implementation_->slots.existing(); }
+
+std::vector<BodyId> World::create_bodies(std::span<const Body> bodies)
+{
+  return answer("new bodies", implementation_->slots.existing(), [&] { return implementation_->create(bodies); });
+}
+
+void World::destroy_bodies(std::span<const BodyId> ids)
+{
+  answer("the destruction of bodies", implementation_->slots.existing(), [&] { implementation_->destroy(ids); });
+}
+
+uint32_t World::add_shape(const Shape &shape)
+{
+  return answer("a shape", implementation_->slots.existing(), [&] { return implementation_->add_shape(shape); });
+}
+
+uint32_t World::add_material(const Material &material)
+{
+  return answer("a material", implementation_->slots.existing(),
+                [&] { return implementation_->add_material(material); });
+}
+
+std::vector<BodyState> World::read_bodies(std::span<const BodyId> ids)
+{
+  return answer("the bodies", implementation_->slots.existing(), [&] { return implementation_->read(ids); });
+}
+
+void World::set_states(std::span<const BodyId> ids, std::span<const BodyState> states)
+{
+  const minicl::ExactFloatingPoint environment;
+  answer("calls to bodies", implementation_->slots.existing(), [&] { implementation_->set_states(ids, states); });
+}
+
+void World::set_velocities(std::span<const BodyId> ids, std::span<const Velocity> velocities)
+{
+  answer("calls to bodies", implementation_->slots.existing(),
+         [&] { implementation_->set_velocities(ids, velocities); });
+}
+
+void World::move_to(std::span<const BodyId> ids, std::span<const Pose> poses)
+{
+  const minicl::ExactFloatingPoint environment;
+  answer("calls to bodies", implementation_->slots.existing(), [&] { implementation_->move_to(ids, poses); });
+}
+
+void World::add_impulses(std::span<const BodyId> ids, std::span<const Impulse> impulses)
+{
+  const minicl::ExactFloatingPoint environment;
+  answer("calls to bodies", implementation_->slots.existing(), [&] { implementation_->add_impulses(ids, impulses); });
+}
+
+void World::add_forces(std::span<const BodyId> ids, std::span<const Force> forces)
+{
+  const minicl::ExactFloatingPoint environment;
+  answer("calls to bodies", implementation_->slots.existing(), [&] { implementation_->add_forces(ids, forces); });
 }
 
 void World::run(Kernel kernel, std::span<const uint32_t> values, std::span<const Buffer> slots)
 {
   const minicl::ExactFloatingPoint environment;
-  answer("a kernel", implementation_->plan.bodies, [&] { implementation_->run(kernel, values, slots); });
+  answer("a kernel", implementation_->slots.existing(), [&] { implementation_->run(kernel, values, slots); });
 }
 
 void World::write_bytes(Buffer buffer, const void *from, size_t bytes, size_t offset)
 {
-  answer("a buffer", implementation_->plan.bodies, [&] { implementation_->write(buffer, from, bytes, offset); });
+  answer("a buffer", implementation_->slots.existing(), [&] { implementation_->write(buffer, from, bytes, offset); });
 }
 
 size_t World::buffer_bytes(Buffer buffer) const
@@ -131,15 +206,15 @@ void World::read_bytes(Buffer buffer, void *to, size_t bytes)
   if (bytes > buffer_bytes(buffer))
     throw InputError(fmt::format("read: buffer '{}' has {} bytes here, not {}", row_of(buffer).name,
                                  buffer_bytes(buffer), bytes));
-  answer("a buffer", implementation_->plan.bodies, [&] { implementation_->memory.download(buffer, to, bytes); });
+  answer("a buffer", implementation_->slots.existing(), [&] { implementation_->memory.download(buffer, to, bytes); });
 }
 
 std::vector<ContactEvent> World::contact_events()
 {
   if (!implementation_->settings.events) throw InputError("contact_events: there are none without Settings::events");
   if (!implementation_->whole) return {};
-  return answer("the contact events", implementation_->plan.bodies, [&] {
-    return download_events(implementation_->memory, implementation_->scene, implementation_->special.order);
+  return answer("the contact events", implementation_->slots.existing(), [&] {
+    return download_events(implementation_->memory, implementation_->scene, implementation_->events_order());
   });
 }
 
@@ -148,15 +223,15 @@ std::vector<PairEvent> World::pair_events()
   if (!implementation_->settings.pair_events)
     throw InputError("pair_events: there are none without Settings::pair_events");
   if (!implementation_->whole) return {};
-  return answer("the pair events", implementation_->plan.bodies,
-                [&] { return download_pair_events(implementation_->memory, implementation_->special.order); });
+  return answer("the pair events", implementation_->slots.existing(),
+                [&] { return download_pair_events(implementation_->memory, implementation_->events_order()); });
 }
 
 std::vector<RayHit> World::cast_rays(std::span<const Ray> rays)
 {
   check_rays(rays);
   const minicl::ExactFloatingPoint environment;
-  return answer("queries", implementation_->plan.bodies,
+  return answer("queries", implementation_->slots.existing(),
                 [&] { return tandem::cast_rays(implementation_->query_target(), rays); });
 }
 
@@ -164,7 +239,7 @@ std::vector<bool> World::cast_rays_any(std::span<const Ray> rays)
 {
   check_rays(rays);
   const minicl::ExactFloatingPoint environment;
-  return answer("queries", implementation_->plan.bodies,
+  return answer("queries", implementation_->slots.existing(),
                 [&] { return tandem::cast_rays_any(implementation_->query_target(), rays); });
 }
 
@@ -172,7 +247,7 @@ std::vector<std::vector<RayHit>> World::cast_rays_all(std::span<const Ray> rays)
 {
   check_rays(rays);
   const minicl::ExactFloatingPoint environment;
-  return answer("queries", implementation_->plan.bodies,
+  return answer("queries", implementation_->slots.existing(),
                 [&] { return tandem::cast_rays_all(implementation_->query_target(), rays); });
 }
 
@@ -180,7 +255,7 @@ std::vector<std::vector<BoxHit>> World::cast_boxes(std::span<const QueryBox> box
 {
   check_boxes(boxes);
   const minicl::ExactFloatingPoint environment;
-  return answer("queries", implementation_->plan.bodies,
+  return answer("queries", implementation_->slots.existing(),
                 [&] { return tandem::cast_boxes(implementation_->query_target(), boxes); });
 }
 
@@ -189,14 +264,15 @@ std::vector<ShapeCastHit> World::cast_shapes(const Shape &shape, std::span<const
 {
   check_shape_casts(shape, poses, displacements);
   const minicl::ExactFloatingPoint environment;
-  return answer("queries", implementation_->plan.bodies, [&] {
+  return answer("queries", implementation_->slots.existing(), [&] {
     return tandem::cast_shapes(implementation_->query_target(), shape, poses, displacements, filter);
   });
 }
 
 Statistics World::statistics()
 {
-  return answer("the statistics", implementation_->plan.bodies, [&] {
+  return answer("the statistics", implementation_->slots.existing(), [&] {
+    implementation_->settle();
     Statistics s = implementation_->statistics;
     if (implementation_->whole) measure_contacts(implementation_->memory, s);
     s.kinetic_energy = kinetic_energy(implementation_->memory, implementation_->scene, implementation_->special.order);
@@ -207,15 +283,18 @@ Statistics World::statistics()
 uint64_t World::body_hash()
 {
   const std::vector<Buffer> state{Buffer::body_position, Buffer::body_orientation, Buffer::body_velocity};
-  return answer("the hash", implementation_->plan.bodies,
-                [&] { return hash_buffers(implementation_->memory, state, implementation_->plan.bodies); });
+  return answer("the hash", implementation_->slots.existing(), [&] {
+    implementation_->settle();
+    return hash_buffers(implementation_->memory, state, implementation_->bodies());
+  });
 }
 
 uint64_t World::state_hash()
 {
   const Implementation &world = *implementation_;
-  uint64_t hash = answer("the hash", world.plan.bodies, [&] {
-    return hash_carried(implementation_->memory, world.buffers.carried(), world.plan.bodies, world.scene_features);
+  uint64_t hash = answer("the hash", world.slots.existing(), [&] {
+    implementation_->settle();
+    return hash_carried(implementation_->memory, world.buffers.carried(), world.bodies(), world.scene_features);
   });
   for (const Quarantine &taken : world.quarantined) hash = hash_bytes(&taken.body, sizeof taken.body, hash);
   return hash;

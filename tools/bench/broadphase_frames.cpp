@@ -70,9 +70,11 @@ void BroadphaseFrames::allocate()
 
 void BroadphaseFrames::upload()
 {
-  upload_bodies(memory_, bodies_.scene, bodies_.special.order);
-  upload_shapes(memory_, bodies_.scene, bodies_.special.order);
-  const Parameters parameters = parameters_of(bodies_.scene, settings_, plan_.features);
+  StagedUploads uploads;
+  stage_bodies(uploads, bodies_.scene, bodies_.special.order);
+  stage_shapes(uploads, bodies_.scene, bodies_.special.order, plan_.bodies);
+  uploads.write(memory_);
+  const Parameters parameters = parameters_of(bodies_.scene, settings_, plan_.features, bodies_.special.median);
   memory_.upload(Buffer::parameters, &parameters, sizeof parameters);
   std::vector<uint32_t> counts(COUNT_TOTAL);
   for (const auto &[entry, value] : entries_of({plan_.bodies, bodies_.special.unbounded, bodies_.special.large}))

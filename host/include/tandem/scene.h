@@ -76,6 +76,11 @@ struct Scene {
  * half-spaces. `where` prefixes the message (a file name). */
 TANDEM_API void validate(const Scene &scene, const std::string &where);
 
+/* The same of one more body, shape or material of a scene; index: the number that the message names. */
+TANDEM_API void validate(const Scene &scene, const Body &body, size_t index, const std::string &where);
+TANDEM_API void validate(const Shape &shape, size_t index, const std::string &where);
+TANDEM_API void validate(const Material &material, size_t index, const std::string &where);
+
 /* One line for each body that can be simulated, but probably not as intended: a moving mesh that is not closed has only
  * an estimated volume. */
 TANDEM_API std::vector<std::string> warnings_of(const Scene &scene, const std::string &where);

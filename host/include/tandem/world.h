@@ -19,6 +19,7 @@
 #include <vector>
 
 #include <tandem/backend.h>
+#include <tandem/bodies.h>
 #include <tandem/events.h>
 #include <tandem/export.h>
 #include <tandem/features.h>
@@ -95,11 +96,53 @@ public:
   const Scene &scene() const;
   const Settings &settings() const; /* with the broadphase that `auto` chose */
 
-  std::vector<BodyState> bodies(); /* in the order of Scene::bodies */
+  /* In the order of Scene::bodies; for a body that was destroyed, where it was last, at rest. */
+  std::vector<BodyState> bodies();
   std::vector<PreciseBodyState> precise_bodies();
   void set_body(uint32_t body, const BodyState &state); /* InputError unless finite and in range */
   /* Does the same without the check, so that tests can set a NaN. */
   void set_body_unchecked(uint32_t body, const BodyState &state);
+
+  /* --- bodies at run time (<tandem/bodies.h>) ---
+   * Each call takes effect completely or, if it throws, not at all. InputError: a handle is stale or unknown, a number
+   * is not finite, or a body cannot be simulated; the message names the first entry at fault. */
+
+  /* Handle of the body with this index, which Scene::bodies, events and hits of queries use. */
+  BodyId id_of(uint32_t body) const;
+  bool exists(const BodyId &id) const;
+  uint32_t body_count() const; /* of the bodies that exist */
+
+  /* Adds bodies of the shapes and materials of scene(), as they are in it now. What they need is checked as validate()
+   * does. Returns their handles in the same order. */
+  std::vector<BodyId> create_bodies(std::span<const Body> bodies);
+  BodyId create_body(const Body &body) { return create_bodies(std::span(&body, 1)).front(); }
+  /* Removes bodies. In the next step the events of their contacts end. */
+  void destroy_bodies(std::span<const BodyId> ids);
+  void destroy_body(const BodyId &id) { destroy_bodies(std::span(&id, 1)); }
+  /* Adds a shape or a material that bodies created later may use; returns its index in scene(). */
+  uint32_t add_shape(const Shape &shape);
+  uint32_t add_material(const Material &material);
+
+  std::vector<BodyState> read_bodies(std::span<const BodyId> ids);
+  BodyState read_body(const BodyId &id) { return read_bodies(std::span(&id, 1)).front(); }
+  void set_states(std::span<const BodyId> ids, std::span<const BodyState> states);
+  void set_state(const BodyId &id, const BodyState &state) { set_states(std::span(&id, 1), std::span(&state, 1)); }
+  /* Fixed bodies ignore velocities, impulses and forces; kinematic ones ignore impulses and forces. */
+  void set_velocities(std::span<const BodyId> ids, std::span<const Velocity> velocities);
+  void set_velocity(const BodyId &id, const Velocity &v) { set_velocities(std::span(&id, 1), std::span(&v, 1)); }
+  /* Gives kinematic bodies the velocities with which they reach these poses at the end of the next step, and which they
+   * keep afterwards. */
+  void move_to(std::span<const BodyId> ids, std::span<const Pose> poses);
+  void move_to(const BodyId &id, const Pose &pose) { move_to(std::span(&id, 1), std::span(&pose, 1)); }
+  void add_impulses(std::span<const BodyId> ids, std::span<const Impulse> impulses);
+  void add_impulse(const BodyId &id, const Impulse &impulse)
+  {
+    add_impulses(std::span(&id, 1), std::span(&impulse, 1));
+  }
+  /* Forces act throughout the next step, and several add up. From the first call on, steps of this world have a stage
+   * of forces. */
+  void add_forces(std::span<const BodyId> ids, std::span<const Force> forces);
+  void add_force(const BodyId &id, const Force &force) { add_forces(std::span(&id, 1), std::span(&force, 1)); }
 
   /* The events of the last step, sorted by (a, b); there are none before the first step. A step that ran again with
    * larger buffers reports them once. Throws InputError without Settings::events. */

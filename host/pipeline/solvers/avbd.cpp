@@ -52,7 +52,7 @@ void launch_avbd(StepLaunches &step)
     warm_start_rolling(step);
     step.run(Kernel::avbd_begin);
     for (uint32_t iteration = 0; iteration < step.settings().iterations; ++iteration) launch_iteration(step, colors);
-    step.run(Kernel::integrate_positions);
+    step.move_bodies();
     solve_rolling(step);
   }
   if (!step.has(FEATURE_RESTITUTION)) return;

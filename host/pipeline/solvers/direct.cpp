@@ -24,7 +24,7 @@ void launch_direct_substep(StepLaunches &step, MassSplit &overflow, uint32_t sub
     launch_pass(step, overflow, PASS_BIASED);
   step.run(Kernel::solve_islands, {PASS_BIASED});
   solve_rolling(step);
-  step.run(Kernel::integrate_positions);
+  step.move_bodies();
   launch_pass(step, overflow, PASS_LAST);
   step.run(Kernel::solve_islands, {PASS_LAST});
   solve_rolling(step);

@@ -19,7 +19,7 @@ void launch_jacobi(StepLaunches &step)
     warm_start_rolling(step);
     contacts.solve(PASS_BIASED, iterations);
     solve_rolling(step);
-    step.run(Kernel::integrate_positions);
+    step.move_bodies();
     contacts.solve(PASS_LAST, iterations);
     solve_rolling(step);
   }

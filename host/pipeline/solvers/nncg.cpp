@@ -36,7 +36,7 @@ void launch_nncg_substep(StepLaunches &step, MassSplit &overflow, uint32_t subst
   step.begin_substep(substep);
   warm_start_contacts(step, overflow);
   launch_passes(step, overflow, PASS_BIASED);
-  step.run(Kernel::integrate_positions);
+  step.move_bodies();
   step.run(Kernel::pgs_masses);
   launch_passes(step, overflow, PASS_LAST);
 }

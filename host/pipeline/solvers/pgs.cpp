@@ -12,7 +12,7 @@ void launch_pgs_substep(StepLaunches &step, MassSplit &overflow, uint32_t subste
   step.begin_substep(substep);
   warm_start_contacts(step, overflow);
   for (uint32_t iteration = 0; iteration < iterations; ++iteration) launch_pgs_pass(step, overflow, PASS_BIASED);
-  step.run(Kernel::integrate_positions);
+  step.move_bodies();
   step.run(Kernel::pgs_masses);
   for (uint32_t iteration = 0; iteration < iterations; ++iteration) launch_pgs_pass(step, overflow, PASS_LAST);
 }

@@ -30,7 +30,7 @@ void launch_soft_step_substep(StepLaunches &step, MassSplit &overflow, uint32_t 
   overflow.warm_start();
   warm_start_rolling(step);
   for (uint32_t turn = 0; turn < passes_of(step, overflow, substep); ++turn) solve(step, overflow, PASS_BIASED);
-  step.run(Kernel::integrate_positions);
+  step.move_bodies();
   solve(step, overflow, substep + 1 < step.settings().substeps ? PASS_RELAXING : PASS_LAST);
 }
 

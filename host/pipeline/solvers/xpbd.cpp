@@ -17,7 +17,7 @@ void launch_xpbd_substep(StepLaunches &step, uint32_t substep)
   warm_start_rolling(step);
   for (uint32_t iteration = 0; iteration < step.settings().iterations; ++iteration)
     step.for_each_color(Kernel::xpbd_positions, Kernel::xpbd_positions_overflow, {iteration == 0});
-  step.run(Kernel::integrate_positions);
+  step.move_bodies();
   for (uint32_t pass = 0; pass < velocity_passes(step); ++pass)
     step.for_each_color(Kernel::xpbd_velocities, Kernel::xpbd_velocities_overflow);
   solve_rolling(step);

@@ -1,0 +1,49 @@
+/* bodies.h - handles of bodies, and what a program may ask of bodies between two steps: World::create_bodies and the
+ * functions after it.
+ *
+ * A body has an index, its place in Scene::bodies, in lists of events and in hits of queries, and a generation. The
+ * index of a destroyed body is used again by a later one of the same kind of bounds, but not before a step has ended
+ * its events; the generation then differs, so a handle never refers to another body than the one it was made for. The
+ * bodies of the scene itself have their index there and generation 1. The same calls give the same indices on every
+ * machine.
+ *
+ * Calls take effect in the order in which they are made. They are collected and applied together before the next step,
+ * or before the world is read (docs/worlds.md).
+ */
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include <tandem/queries.h>
+#include <tandem/shapes.h>
+
+namespace tandem {
+
+struct BodyId {
+  uint32_t index = no_body;
+  uint32_t generation = 0; /* 0: of no body */
+  friend bool operator==(const BodyId &, const BodyId &) = default;
+};
+
+struct Velocity {
+  Vec3 linear{0, 0, 0};  /* m/s, world axes */
+  Vec3 angular{0, 0, 0}; /* rad/s, world axes */
+};
+
+/* What acts on a body throughout the next step. The point is where the force acts, in world coordinates; without one it
+ * acts at the centre of mass. */
+struct Force {
+  Vec3 force{0, 0, 0};  /* N */
+  Vec3 torque{0, 0, 0}; /* N m */
+  std::optional<Point> point = std::nullopt;
+};
+
+/* Changes the velocity at once. The point is as that of a force. */
+struct Impulse {
+  Vec3 impulse{0, 0, 0};         /* N s */
+  Vec3 angular_impulse{0, 0, 0}; /* N m s */
+  std::optional<Point> point = std::nullopt;
+};
+
+} // namespace tandem

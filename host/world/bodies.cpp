@@ -1,0 +1,420 @@
+/* bodies.cpp - bodies that are created and destroyed while a world runs.
+ *
+ * The body buffers have room for plan.bodies bodies, of which bodies() are in use:
+ *
+ *   | half-spaces | large | small bodies, with free slots among them | room |
+ *
+ * A small body takes a free slot or the next place behind the last one: its rows alone are written. A half-space or a
+ * large body is inserted among its own kind, which moves those behind it; their order stays, so the sorted lists of the
+ * contact cache stay sorted. Room grows by doubling. Inserting, growing, new shapes, materials and features lay the
+ * buffers out anew; a call that does none of this writes a few rows.
+ *
+ * Whatever can fail for lack of memory comes before the first change of the world.
+ */
+#include <algorithm>
+#include <set>
+
+#include <fmt/format.h>
+
+#include <tandem/error.h>
+
+#include "host/pipeline/broadphases/broadphase.h"
+#include "host/pipeline/scene_counts.h"
+#include "host/pipeline/setting_rows.h"
+#include "host/runtime/interface/floating_point.h"
+#include "host/runtime/interface/module.h"
+#include "host/world/implementation.h"
+#include "host/world/reordered_rows.h"
+
+namespace tandem {
+
+constexpr size_t regions = 3;
+
+/* What a call of create() will do. */
+struct World::Implementation::Arrival {
+  std::vector<uint32_t> slots;                         /* of the new bodies, in their order */
+  std::array<size_t, regions> again{};                 /* how many free slots of each region are used */
+  std::array<std::vector<uint32_t>, regions> appended; /* new slots, by region */
+  float median = 0;
+  bool grows = false; /* beyond the present room */
+
+  size_t new_slots() const { return appended[0].size() + appended[1].size() + appended[2].size(); }
+  bool inserts() const { return !appended[0].empty() || !appended[1].empty(); }
+};
+
+namespace {
+
+constexpr uint32_t least_room = 64;
+
+/* Calls work(first, count) for each run of consecutive numbers. */
+template <class Work> void for_each_run(std::span<const uint32_t> sorted, const Work &work)
+{
+  for (size_t at = 0; at < sorted.size();) {
+    size_t end = at + 1;
+    while (end < sorted.size() && sorted[end] == sorted[end - 1] + 1) ++end;
+    work(at, end - at);
+    at = end;
+  }
+}
+
+/* Puts bodies into a scene, and takes them out again unless they are kept. */
+class AddedBodies {
+public:
+  AddedBodies(Scene &scene, std::span<const uint32_t> slots, std::span<const Body> bodies)
+      : scene_(scene), count_(scene.bodies.size())
+  {
+    replaced_.reserve(bodies.size());
+    scene.bodies.reserve(count_ + bodies.size());
+    for (size_t i = 0; i < bodies.size(); ++i) put(slots[i], bodies[i]);
+  }
+  ~AddedBodies()
+  {
+    if (kept_) return;
+    for (auto one = replaced_.rbegin(); one != replaced_.rend(); ++one)
+      std::swap(scene_.bodies[one->first], one->second);
+    scene_.bodies.resize(count_);
+  }
+  AddedBodies(const AddedBodies &) = delete;
+  AddedBodies &operator=(const AddedBodies &) = delete;
+  void keep() noexcept { kept_ = true; }
+
+private:
+  void put(uint32_t slot, Body body)
+  {
+    if (slot >= scene_.bodies.size()) return scene_.bodies.push_back(std::move(body));
+    replaced_.emplace_back(slot, std::move(body));
+    std::swap(scene_.bodies[slot], replaced_.back().second);
+  }
+
+  Scene &scene_;
+  size_t count_;
+  std::vector<std::pair<uint32_t, Body>> replaced_;
+  bool kept_ = false;
+};
+
+bool has_tree(const Shape &shape) { return shape.mesh || shape.compound; }
+
+/* Stages a buffer that follows the bodies in their new order. */
+void stage_reordered(StagedUploads &uploads, Memory &memory, const ReorderedRows &rows, Buffer buffer)
+{
+  if (memory.bytes(buffer) == 0) return;
+  if (row_of(buffer).capacity == Capacity::BODIES) uploads.add(buffer, rows.rows_of(memory, buffer));
+  if (row_of(buffer).capacity == Capacity::BODIES_PLUS_ONE) uploads.add(buffer, rows.starts_of(memory, buffer));
+}
+
+/* All contents that follow the bodies: what steps carry over, and what modules keep by body. */
+void stage_carried_rows(StagedUploads &uploads, Memory &memory, const StepBuffers &buffers,
+                        const std::vector<uint32_t> &old_order, const std::vector<uint32_t> &new_order)
+{
+  const ReorderedRows rows(old_order, new_order);
+  for (const CarriedBuffer &carried : buffers.carried()) stage_reordered(uploads, memory, rows, carried.now);
+  for (size_t i = buffer_count; i < buffers.needs().touched.size(); ++i) {
+    const Lifetime lifetime = row_of(buffer_at(i)).lifetime;
+    if (lifetime == Lifetime::SCENE || lifetime == Lifetime::KEPT)
+      stage_reordered(uploads, memory, rows, buffer_at(i));
+  }
+  const auto pairs = memory.read<uint32_t>(Buffer::cached_start, 1, old_order.size()).front();
+  uploads.add(Buffer::cached_b, rows.indices_of(memory, Buffer::cached_b, pairs));
+}
+
+} // namespace
+
+/* What laying out anew changes of a world before it writes; unless dropped, it is restored. */
+class World::Implementation::LayoutBackup {
+public:
+  explicit LayoutBackup(Implementation &world)
+      : world_(&world), special_(world.special), features_(world.scene_features), hulls_(world.hulls),
+        trees_(world.trees), plan_(world.plan), entries_(world.scene_entries), needs_(world.buffers.needs()),
+        slots_(world.slots), shapes_(world.uploaded_shapes), materials_(world.uploaded_materials)
+  {}
+  ~LayoutBackup()
+  {
+    if (!world_) return;
+    world_->special = std::move(special_);
+    world_->scene_features = features_;
+    world_->hulls = hulls_;
+    world_->trees = std::move(trees_);
+    world_->plan = plan_;
+    world_->scene_entries = std::move(entries_);
+    world_->buffers.give_back_needs(std::move(needs_));
+    world_->slots = std::move(slots_);
+    world_->uploaded_shapes = shapes_;
+    world_->uploaded_materials = materials_;
+  }
+  LayoutBackup(const LayoutBackup &) = delete;
+  LayoutBackup &operator=(const LayoutBackup &) = delete;
+  void drop() noexcept { world_ = nullptr; }
+
+private:
+  Implementation *world_;
+  Specialisation special_;
+  Features features_;
+  HullSizes hulls_;
+  TreeTables trees_;
+  StepPlan plan_;
+  std::vector<std::pair<int, uint32_t>> entries_;
+  StepBuffers::Needs needs_;
+  BodySlots slots_;
+  size_t shapes_, materials_;
+};
+
+BodyRegion World::Implementation::region_of(uint32_t index) const
+{
+  return index < special.unbounded ? BodyRegion::half_spaces
+         : index < special.large   ? BodyRegion::large
+                                   : BodyRegion::small;
+}
+
+void World::Implementation::check_new(std::span<const Body> given) const
+{
+  if (given.size() + slots.count() >= body_numbers)
+    throw InputError(fmt::format("create_bodies: {} bodies and {} more; kernels can number {}", slots.count(),
+                                 given.size(), body_numbers - 1));
+  for (size_t i = 0; i < given.size(); ++i) validate(scene, given[i], i, "create_bodies");
+}
+
+/* New slots are numbered in the order of the call. */
+World::Implementation::Arrival World::Implementation::arrival_of(std::span<const Body> given) const
+{
+  Arrival arrival;
+  arrival.median = special.median;
+  arrival.grows = bodies() + given.size() > plan.bodies; /* sizes change with the room, so that few calls look */
+  if (arrival.grows) {
+    Scene all = scene;
+    all.bodies.insert(all.bodies.end(), given.begin(), given.end());
+    arrival.median = median_radius(all);
+  }
+  size_t large = special.large - special.unbounded;
+  std::array<std::vector<uint32_t>, regions> usable;
+  for (size_t region = 0; region < regions; ++region)
+    usable[region] = slots.usable(static_cast<BodyRegion>(region), statistics.steps, given.size());
+  uint32_t next = slots.count();
+  for (const Body &body : given) {
+    const bool unbounded = scene.shapes[body.shape].type == ShapeType::half_space;
+    auto region = static_cast<size_t>(BodyRegion::small);
+    if (unbounded) region = static_cast<size_t>(BodyRegion::half_spaces);
+    else if (is_large(scene, body, arrival.median) &&
+             (arrival.again[1] < usable[1].size() || large < most_large_bodies))
+      region = static_cast<size_t>(BodyRegion::large);
+    if (arrival.again[region] < usable[region].size()) {
+      arrival.slots.push_back(usable[region][arrival.again[region]++]);
+      continue;
+    }
+    if (region == static_cast<size_t>(BodyRegion::large)) ++large;
+    arrival.slots.push_back(next);
+    arrival.appended[region].push_back(next++);
+  }
+  return arrival;
+}
+
+/* True if more than the rows of the bodies themselves must change. The bodies stand in the scene already. */
+bool World::Implementation::brings_tables(const Arrival &arrival)
+{
+  if (known_kinds.empty())
+    for (uint32_t slot = 0; slot < slots.count(); ++slot)
+      if (slots.exists(slot)) known_kinds.insert(kind_of(scene, scene.bodies[slot]));
+  bool brings = arrival.inserts() || bodies() + arrival.new_slots() > plan.bodies;
+  for (const uint32_t slot : arrival.slots) {
+    const Body &body = scene.bodies[slot];
+    const bool is_new = known_kinds.insert(kind_of(scene, body)).second;
+    brings = brings || is_new || body.shape >= uploaded_shapes || body.material >= uploaded_materials ||
+             has_tree(scene.shapes[body.shape]);
+  }
+  return brings;
+}
+
+std::vector<BodyId> World::Implementation::create(std::span<const Body> given)
+{
+  const minicl::ExactFloatingPoint environment;
+  check_new(given);
+  if (given.empty()) return {};
+  settle();
+  const Arrival arrival = arrival_of(given);
+  std::vector<BodyId> ids(given.size());
+  slots.prepare_growth(arrival.new_slots());
+  index_of_body.reserve(slots.count() + arrival.new_slots());
+  special.order.reserve(bodies() + arrival.new_slots());
+  AddedBodies added(scene, arrival.slots, given);
+  try {
+    if (brings_tables(arrival)) lay_out_anew(arrival);
+    else place_among_others(arrival);
+  } catch (...) {
+    known_kinds.clear(); /* some may be of these bodies alone */
+    throw;
+  }
+  added.keep();
+  for (size_t i = 0; i < ids.size(); ++i) ids[i] = slots.id_of(arrival.slots[i]);
+  return ids;
+}
+
+/* Writes the rows of bodies that all fit between and behind the others. New ones are out of every kernel's range until
+ * the counts change, which comes last. */
+void World::Implementation::place_among_others(const Arrival &arrival)
+{
+  const std::vector<uint32_t> &appended = arrival.appended[static_cast<size_t>(BodyRegion::small)];
+  std::vector<std::pair<uint32_t, uint32_t>> placed; /* index, slot */
+  for (const uint32_t slot : arrival.slots)
+    placed.emplace_back(slot < slots.count() ? index_of_body[slot] : bodies() + (slot - slots.count()), slot);
+  std::sort(placed.begin(), placed.end());
+  std::vector<uint32_t> indices, sorted_slots;
+  for (const auto &[index, slot] : placed) indices.push_back(index), sorted_slots.push_back(slot);
+
+  buffers.make_ready(sizes());
+  StagedUploads uploads;
+  const HullNumbers numbers = hull_numbers(scene);
+  for_each_run(indices, [&](size_t first, size_t count) {
+    stage_new_bodies(uploads, scene, numbers, std::span(sorted_slots).subspan(first, count), indices[first]);
+  });
+  const uint32_t pairs = memory.read<uint32_t>(Buffer::cached_start, 1, bodies()).front();
+  uploads.add(Buffer::cached_start, std::vector<uint32_t>(appended.size(), pairs), bodies() + size_t{1});
+  const auto entries = entries_of({bodies() + static_cast<uint32_t>(appended.size()), special.unbounded, special.large});
+  for (const auto &[entry, value] : entries)
+    uploads.add_count(static_cast<uint32_t>(entry), value);
+  uploads.prepare(memory);
+  scene_entries = entries;
+
+  slots.append(appended.size());
+  for (size_t region = 0; region < regions; ++region)
+    slots.use_again(static_cast<BodyRegion>(region), arrival.again[region]);
+  special.order.insert(special.order.end(), appended.begin(), appended.end());
+  number_bodies();
+  for (const auto &[entry, value] : scene_entries) plan.known[static_cast<size_t>(entry)] = value;
+  ++state;
+  uploads.write(memory);
+  forget_kept(memory);
+}
+
+namespace {
+
+/* The order of the bodies with new ones at the end of their regions. */
+std::vector<uint32_t> order_with(const Specialisation &special, const std::array<std::vector<uint32_t>, regions> &added)
+{
+  const std::array<size_t, regions + 1> ends{0, special.unbounded, special.large, special.order.size()};
+  std::vector<uint32_t> order;
+  for (size_t region = 0; region < regions; ++region) {
+    const auto first = special.order.begin();
+    order.insert(order.end(), first + static_cast<ptrdiff_t>(ends[region]),
+                 first + static_cast<ptrdiff_t>(ends[region + 1]));
+    order.insert(order.end(), added[region].begin(), added[region].end());
+  }
+  return order;
+}
+
+/* The contents of cached_normal that steps would have left if the scene had had trees before. */
+std::vector<float4> normals_of_pairs(Memory &memory, uint32_t bodies)
+{
+  if (memory.bytes(Buffer::cached_normal) > 0) return {};
+  return memory.read<float4>(Buffer::manifold_normal,
+                             memory.read<uint32_t>(Buffer::cached_start, 1, bodies).front());
+}
+
+} // namespace
+
+/* The layout for the scene with its new bodies. */
+void World::Implementation::plan_layout(const Arrival &arrival, std::vector<uint32_t> order)
+{
+  const Features needed = scene_features | features_of(scene, settings);
+  special.unbounded += static_cast<uint32_t>(arrival.appended[0].size());
+  special.large += static_cast<uint32_t>(arrival.appended[0].size() + arrival.appended[1].size());
+  special.median = arrival.median;
+  special.features = settings.specialise ? needed : all_features();
+  special.order = std::move(order);
+  scene_features = needed;
+  hulls = hull_sizes(scene, cube_map_cells(settings));
+  trees = tree_tables(scene);
+  if (bodies() > plan.bodies) plan.bodies = std::max({bodies(), 2 * plan.bodies, least_room});
+  plan.features = special.features;
+  plan.capacity_cells = cells_for(plan.bodies);
+  scene_entries = entries_of({bodies(), special.unbounded, special.large});
+  record_kernels();
+  backends.take_features(special.features, buffers.needs().kernels);
+  buffers.changed();
+  buffers.make_ready(sizes());
+}
+
+/* The states of the new bodies, in their places. */
+void World::Implementation::stage_arrival(StagedUploads &uploads, const Arrival &arrival) const
+{
+  const std::set<uint32_t> is_new(arrival.slots.begin(), arrival.slots.end());
+  for (uint32_t index = 0; index < bodies(); ++index)
+    if (is_new.contains(special.order[index])) stage_states(uploads, scene, std::span(&special.order[index], 1), index);
+}
+
+/* Makes room, tables and kernels for the new bodies, and moves the others to their new places. */
+void World::Implementation::lay_out_anew(const Arrival &arrival)
+{
+  buffers.make_ready(sizes());
+  const std::vector<uint32_t> old_order = special.order;
+  std::vector<uint32_t> order = order_with(special, arrival.appended);
+  std::vector<float4> normals = normals_of_pairs(memory, bodies());
+  StagedUploads uploads;
+  stage_carried_rows(uploads, memory, buffers, old_order, order);
+  uploads.add(Buffer::cached_normal, std::move(normals));
+  std::vector<uint32_t> order_before = arrival.inserts() && order_of_events.empty() ? old_order : order_of_events;
+  LayoutBackup backup(*this);
+  plan_layout(arrival, std::move(order));
+  slots.append(arrival.new_slots());
+  for (size_t region = 0; region < regions; ++region)
+    slots.use_again(static_cast<BodyRegion>(region), arrival.again[region]);
+  stage_tables(uploads);
+  stage_masses(uploads, scene, special.order);
+  stage_arrival(uploads, arrival);
+  stage_counts(uploads);
+  uploads.prepare(memory);
+  backup.drop();
+
+  number_bodies();
+  order_of_events.swap(order_before);
+  ++state;
+  uploads.write(memory);
+  guess_counts();
+  forget_kept(memory);
+}
+
+std::vector<uint32_t> World::Implementation::distinct_indices(const char *call, std::span<const BodyId> ids) const
+{
+  std::vector<uint32_t> indices = indices_of(call, ids);
+  std::sort(indices.begin(), indices.end());
+  const auto twice = std::adjacent_find(indices.begin(), indices.end());
+  if (twice != indices.end())
+    throw InputError(fmt::format("{}: body {} is given twice", call, special.order[*twice]));
+  return indices;
+}
+
+void World::Implementation::destroy(std::span<const BodyId> ids)
+{
+  const std::vector<uint32_t> indices = distinct_indices("destroy_bodies", ids);
+  if (ids.empty()) return;
+  settle();
+  buffers.make_ready(sizes());
+  for (size_t region = 0; region < regions; ++region)
+    slots.prepare_freeing(static_cast<BodyRegion>(region), indices.size());
+  StagedUploads uploads;
+  for_each_run(indices, [&](size_t first, size_t count) {
+    stage_free_rows(uploads, indices[first], static_cast<uint32_t>(count));
+  });
+  uploads.prepare(memory);
+  ++state;
+  uploads.write(memory);
+  forget_kept(memory);
+  for (const uint32_t index : indices) slots.free(special.order[index], region_of(index), statistics.steps);
+}
+
+uint32_t World::Implementation::add_shape(const Shape &shape)
+{
+  const minicl::ExactFloatingPoint environment;
+  validate(shape, scene.shapes.size(), "add_shape");
+  scene.shapes.push_back(shape);
+  return static_cast<uint32_t>(scene.shapes.size() - 1);
+}
+
+uint32_t World::Implementation::add_material(const Material &material)
+{
+  validate(material, scene.materials.size(), "add_material");
+  if (scene.materials.size() >= MOST_MATERIALS)
+    throw InputError(fmt::format("add_material: there are {} materials; no more are possible", MOST_MATERIALS));
+  scene.materials.push_back(material);
+  return static_cast<uint32_t>(scene.materials.size() - 1);
+}
+
+} // namespace tandem

@@ -1,0 +1,222 @@
+/* calls.cpp - the calls of a program to bodies that exist: what they ask is checked at once and applied later, by the
+ * kernels of shared/commands/apply_commands.h.
+ *
+ * A call is taken whole or not at all: every handle and every number is checked before the first command is added. */
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <tandem/error.h>
+
+#include "host/base/finite_vector.h"
+#include "host/runtime/interface/floating_point.h"
+#include "host/world/implementation.h"
+#include "shared/commands/command_codes.h"
+
+namespace tandem {
+namespace {
+
+float4 row_of_vector(const Vec3 &v) { return {v[0], v[1], v[2], 0}; }
+
+CommandList::Rows rows_of_vectors(const Vec3 &first, const Vec3 &second)
+{
+  return {row_of_vector(first), row_of_vector(second), float4{0, 0, 0, 0}};
+}
+CommandList::Rows rows_of_pose(const Pose &pose)
+{
+  const auto [high, low] = double_float3_of(pose.position);
+  const Quat q = unit(pose.orientation);
+  return {high, low, float4{q[0], q[1], q[2], q[3]}};
+}
+CommandList::Rows rows_at_point(const Vec3 &vector, const Point &point)
+{
+  const auto [high, low] = double_float3_of(point);
+  return {row_of_vector(vector), high, low};
+}
+
+[[noreturn]] void refuse(const char *call, size_t index, const std::string &why)
+{
+  throw InputError(fmt::format("{}: entry {}: {}", call, index, why));
+}
+
+template <class Vector> void check_vector(const char *call, size_t index, const char *what, const Vector &v)
+{
+  if (!is_finite_vector(v))
+    refuse(call, index, fmt::format("{} is {}; three finite numbers are needed", what, vector_text(v)));
+}
+
+void check_rotation(const char *call, size_t index, const Quat &q)
+{
+  double square = 0;
+  for (const float x : q) square += double{x} * x;
+  if (!(std::abs(square - 1) < 2e-3))
+    refuse(call, index,
+           fmt::format("orientation is [{}, {}, {}, {}]; a quaternion of length 1 is needed", q[0], q[1], q[2], q[3]));
+}
+
+void check(const char *call, size_t index, const Pose &pose)
+{
+  check_vector(call, index, "position", pose.position);
+  check_rotation(call, index, pose.orientation);
+}
+void check(const char *call, size_t index, const Velocity &velocity)
+{
+  check_vector(call, index, "linear velocity", velocity.linear);
+  check_vector(call, index, "angular velocity", velocity.angular);
+}
+void check(const char *call, size_t index, const BodyState &state)
+{
+  check(call, index, Pose{state.position, state.orientation});
+  check(call, index, Velocity{state.linear_velocity, state.angular_velocity});
+}
+void check_point(const char *call, size_t index, const std::optional<Point> &point)
+{
+  if (point) check_vector(call, index, "point", *point);
+}
+void check(const char *call, size_t index, const Impulse &impulse)
+{
+  check_vector(call, index, "impulse", impulse.impulse);
+  check_vector(call, index, "angular impulse", impulse.angular_impulse);
+  check_point(call, index, impulse.point);
+}
+void check(const char *call, size_t index, const Force &force)
+{
+  check_vector(call, index, "force", force.force);
+  check_vector(call, index, "torque", force.torque);
+  check_point(call, index, force.point);
+}
+
+template <class Entry> void check_entries(const char *call, size_t ids, std::span<const Entry> entries)
+{
+  if (ids != entries.size())
+    throw InputError(fmt::format("{}: {} handles and {} entries; one entry for each handle is needed", call, ids,
+                                 entries.size()));
+  for (size_t i = 0; i < entries.size(); ++i) check(call, i, entries[i]);
+}
+
+/* A vector at a point, or at the centre, and another one that turns. */
+struct Push {
+  const Vec3 &vector, &turning;
+  const std::optional<Point> &point;
+};
+
+void add_push(CommandList &list, uint32_t body, const Push &push, uint32_t at_center, uint32_t at_point)
+{
+  if (push.point) list.add(body, at_point, rows_at_point(push.vector, *push.point));
+  if (!push.point) list.add(body, at_center, rows_of_vectors(push.vector, push.turning));
+  else if (push.turning != Vec3{0, 0, 0}) list.add(body, at_center, rows_of_vectors({0, 0, 0}, push.turning));
+}
+
+} // namespace
+
+std::vector<uint32_t> World::Implementation::indices_of(const char *call, std::span<const BodyId> ids) const
+{
+  std::vector<uint32_t> indices;
+  indices.reserve(ids.size());
+  for (const BodyId &id : ids) indices.push_back(index_of_body[slots.slot_of(call, id)]);
+  return indices;
+}
+
+/* Brings the buffers to what the calls so far have made of the world. */
+void World::Implementation::settle()
+{
+  restore_bodies(); /* where the last attempt of a step could not */
+  if (commands.empty() && force_commands.empty()) return;
+  const minicl::ExactFloatingPoint environment;
+  buffers.make_ready(sizes());
+  ++state;
+  commands.apply(Kernel::apply_commands, memory, launcher);
+  force_commands.apply(Kernel::add_forces, memory, launcher);
+}
+
+/* Many bodies are read with their whole buffers, because each transfer from a device takes as long as some thousands of
+ * rows. */
+std::vector<BodyState> World::Implementation::read(std::span<const BodyId> ids)
+{
+  constexpr size_t rows_per_transfer = 1024;
+  const std::vector<uint32_t> indices = indices_of("read_bodies", ids);
+  settle();
+  std::vector<BodyState> states;
+  states.reserve(ids.size());
+  if (ids.size() * rows_per_transfer < bodies()) {
+    for (const uint32_t index : indices) states.push_back(download_body(memory, index));
+    return states;
+  }
+  const std::vector<BodyState> all = download_bodies(memory, special.order);
+  for (const BodyId &id : ids) states.push_back(all[id.index]);
+  return states;
+}
+
+void World::Implementation::set_states(std::span<const BodyId> ids, std::span<const BodyState> states)
+{
+  const std::vector<uint32_t> indices = indices_of("set_states", ids);
+  check_entries("set_states", ids.size(), states);
+  commands.prepare(2 * ids.size());
+  for (size_t i = 0; i < ids.size(); ++i) {
+    commands.add(indices[i], COMMAND_SET_POSE, rows_of_pose({states[i].position, states[i].orientation}));
+    commands.add(indices[i], COMMAND_SET_VELOCITY,
+                 rows_of_vectors(states[i].linear_velocity, states[i].angular_velocity));
+  }
+}
+
+void World::Implementation::set_velocities(std::span<const BodyId> ids, std::span<const Velocity> velocities)
+{
+  const std::vector<uint32_t> indices = indices_of("set_velocities", ids);
+  check_entries("set_velocities", ids.size(), velocities);
+  commands.prepare(ids.size());
+  for (size_t i = 0; i < ids.size(); ++i)
+    commands.add(indices[i], COMMAND_SET_VELOCITY, rows_of_vectors(velocities[i].linear, velocities[i].angular));
+}
+
+void World::Implementation::move_to(std::span<const BodyId> ids, std::span<const Pose> poses)
+{
+  const std::vector<uint32_t> indices = indices_of("move_to", ids);
+  check_entries("move_to", ids.size(), poses);
+  for (size_t i = 0; i < ids.size(); ++i)
+    if (scene.bodies[ids[i].index].type != BodyType::kinematic)
+      refuse("move_to", i, fmt::format("body {} is not kinematic; set_states puts other bodies elsewhere", ids[i].index));
+  commands.prepare(ids.size());
+  for (size_t i = 0; i < ids.size(); ++i) commands.add(indices[i], COMMAND_MOVE_TO, rows_of_pose(poses[i]));
+}
+
+void World::Implementation::add_impulses(std::span<const BodyId> ids, std::span<const Impulse> impulses)
+{
+  const std::vector<uint32_t> indices = indices_of("add_impulses", ids);
+  check_entries("add_impulses", ids.size(), impulses);
+  commands.prepare(2 * ids.size());
+  for (size_t i = 0; i < ids.size(); ++i)
+    add_push(commands, indices[i], {impulses[i].impulse, impulses[i].angular_impulse, impulses[i].point},
+             COMMAND_ADD_IMPULSE, COMMAND_ADD_IMPULSE_AT);
+}
+
+void World::Implementation::add_forces(std::span<const BodyId> ids, std::span<const Force> forces)
+{
+  const std::vector<uint32_t> indices = indices_of("add_forces", ids);
+  check_entries("add_forces", ids.size(), forces);
+  if (ids.empty()) return;
+  use_forces();
+  force_commands.prepare(2 * ids.size());
+  for (size_t i = 0; i < ids.size(); ++i)
+    add_push(force_commands, indices[i], {forces[i].force, forces[i].torque, forces[i].point}, COMMAND_ADD_FORCE,
+             COMMAND_ADD_FORCE_AT);
+}
+
+/* From the first force on, steps launch the stage of forces. */
+void World::Implementation::use_forces()
+{
+  if (plan.forces) return;
+  StepBuffers::Needs before = buffers.needs();
+  plan.forces = true;
+  try {
+    record_kernels();
+    place_again();
+    buffers.make_ready(sizes());
+  } catch (...) {
+    plan.forces = false;
+    buffers.give_back_needs(std::move(before));
+    throw;
+  }
+}
+
+} // namespace tandem

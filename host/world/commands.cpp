@@ -1,0 +1,55 @@
+/* commands.cpp - sorts calls by body and hands them to the kernels; see commands.h. */
+#include "host/world/commands.h"
+
+#include <algorithm>
+
+#include "shared/counts.h"
+
+namespace tandem {
+namespace {
+
+/* Buffers of commands keep the size of the largest list, so that steps with fewer calls allocate nothing. */
+template <class T> void upload_list(Memory &memory, Buffer buffer, const std::vector<T> &values)
+{
+  const size_t bytes = values.size() * sizeof(T);
+  if (memory.bytes(buffer) < bytes) memory.resize(buffer, bytes + bytes / 2);
+  memory.upload(buffer, values.data(), bytes);
+}
+
+} // namespace
+
+void CommandList::prepare(size_t more)
+{
+  const size_t needed = commands_.size() + more;
+  if (commands_.capacity() < needed) commands_.reserve(std::max(needed, 2 * commands_.capacity()));
+}
+
+/* Returns the number of bodies that have commands. */
+uint32_t CommandList::upload(Memory &memory)
+{
+  std::stable_sort(commands_.begin(), commands_.end(),
+                   [](const Command &one, const Command &other) { return one.body < other.body; });
+  starts_.clear(), targets_.clear(), values_.clear();
+  for (const Command &command : commands_) {
+    const auto place = static_cast<uint32_t>(targets_.size() / 2);
+    if (place == 0 || targets_[2 * place - 2] != command.body) starts_.push_back(place);
+    targets_.insert(targets_.end(), {command.body, command.kind});
+    values_.insert(values_.end(), command.rows.begin(), command.rows.end());
+  }
+  starts_.push_back(static_cast<uint32_t>(commands_.size()));
+  upload_list(memory, Buffer::command_start, starts_);
+  upload_list(memory, Buffer::command, targets_);
+  upload_list(memory, Buffer::command_value, values_);
+  return static_cast<uint32_t>(starts_.size() - 1);
+}
+
+void CommandList::apply(Kernel kernel, Memory &memory, Launcher &launcher)
+{
+  if (commands_.empty()) return;
+  const uint32_t bodies = upload(memory);
+  memory.upload(Buffer::counts, &bodies, sizeof bodies, COUNT_LENGTH * sizeof bodies);
+  launcher.launch({kernel, {}, {}, COUNT_ZERO, COUNT_LENGTH, bodies});
+  commands_.clear();
+}
+
+} // namespace tandem
