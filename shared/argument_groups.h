@@ -128,6 +128,18 @@ typedef struct {
   BUFFER(kept_order, uint, order)                                                                                      \
   BUFFER(kept_place, uint, place)
 
+/* The bodies that sleep, sorted by the cells of sleeping/near_sleepers.h. */
+#define GROUP_sleepers(BUFFER)                                                                                         \
+  BUFFER(sleeper_key, uint, key)                                                                                       \
+  BUFFER(sleeper_body, uint, body)                                                                                     \
+  BUFFER(sleeper_bounds, float4, bounds)
+
+typedef struct {
+  GROUP_sleepers(READ_MEMBER)
+} read_sleepers;
+typedef struct {
+  GROUP_sleepers(WRITE_MEMBER)
+} write_sleepers;
 typedef struct {
   GROUP_hierarchy_nodes(READ_MEMBER)
 } read_hierarchy_nodes;

@@ -90,6 +90,16 @@ enum {
   COUNT_FIRST_CONFLICT, /* the first of them, INDEX_NONE if none */
   COUNT_MISBATCHED,     /* pairs that touch and stand in no batch or in several, or do not touch and stand in one */
   COUNT_FIRST_MISBATCHED,
+  COUNT_ALL_BODIES,           /* those awake, which are COUNT_BODIES, and those that sleep behind them; set by the host */
+  COUNT_SLEEPERS,             /* those alone; set by the host */
+  COUNT_SLEEPER_REACH,        /* bits of a float: the largest half extent of their boxes, m */
+  COUNT_SLEEPER_PAIRS,        /* pairs of a body that is awake and one that sleeps, up to the capacity */
+  COUNT_SLEEPER_PAIRS_NEEDED, /* those found */
+  COUNT_TOUCHED_SLEEPERS,     /* those of them that have contacts */
+  COUNT_DROWSY,               /* bodies that have rested for long enough to fall asleep */
+  COUNT_ISLAND_ROUNDS,        /* rounds that changed a label of an island */
+  COUNT_ISLANDS_OPEN,         /* 1 if more rounds might change one */
+  COUNT_FALLING_ASLEEP,       /* bodies that fall asleep at the end of the step */
   COUNT_EVENTS,      /* of the step; 0 unless it was committed */
   COUNT_PAIR_EVENTS, /* the same of pairs that come near, stay or leave */
   KIND_START,        /* the start of each kind in pair_of_kind, and the end of the last one */
@@ -103,7 +113,9 @@ enum {
   STATUS_PAIRS = 1,    /* more pairs than capacity: grow and run the step again */
   STATUS_ROUNDS = 2,   /* colouring needs more rounds */
   STATUS_COLORS = 4,   /* more colours than were launched */
-  STATUS_NONFINITE = 8 /* a body is not finite: quarantine it and run the step again */
+  STATUS_NONFINITE = 8, /* a body is not finite: quarantine it and run the step again */
+  STATUS_ISLANDS = 16,  /* islands need more rounds */
+  STATUS_WAKE = 32      /* sleeping bodies were touched: wake their islands and run the step again */
 };
 
 /* The stage that first saw a body non-finite, in pipeline order. */

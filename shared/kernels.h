@@ -9,6 +9,7 @@
 #include "shared/broadphase/kernels.h"
 #include "shared/midphase/kernels.h"
 #include "shared/narrowphase/kernels.h"
+#include "shared/sleeping/kernels.h"
 #include "shared/queries/kernels.h"
 #include "shared/sweeps/kernels.h"
 #endif

@@ -41,6 +41,7 @@
 typedef unsigned short half_word;
 #define SQUARE_ROOT(x) sqrt(x)
 #define FLOAT_BITS(x) as_uint(x)
+#define BITS_FLOAT(x) as_float(x)
 
 /* The phases of a work-group. The barrier stands inside the loop header, so it cannot be forgotten. A phase of a single
  * item must not hold a loop of its own, because PoCL 3.1 then runs that loop once for every item. */
@@ -87,6 +88,12 @@ static inline uint float_bits(float x)
   __builtin_memcpy(&bits, &x, sizeof bits);
   return bits;
 }
+static inline float float_of_bits(uint bits)
+{
+  float x;
+  __builtin_memcpy(&x, &bits, sizeof x);
+  return x;
+}
 static inline uint atomic_add_uint(uint *pointer, uint value)
 {
   return __atomic_fetch_add(pointer, value, __ATOMIC_RELAXED);
@@ -116,6 +123,7 @@ static inline uint local_add_uint(uint *pointer, uint value)
 #endif
 
 #define FLOAT_BITS(x) float_bits((float)(x))
+#define BITS_FLOAT(x) float_of_bits(x)
 #define LEADING_ZEROS(x) __builtin_clz(x)
 #define ATOMIC_ADD(pointer, value) atomic_add_uint((pointer), (value))
 #define ATOMIC_MAX(pointer, value) atomic_max_uint((pointer), (value))

@@ -22,6 +22,8 @@ std::vector<std::pair<int, uint32_t>> entries_of(const SceneCounts &scene)
           {COUNT_BOUNDED, scene.bodies - scene.unbounded},
           {COUNT_LARGE, scene.large},
           {COUNT_SMALL, scene.bodies - scene.large},
+          {COUNT_ALL_BODIES, scene.bodies + scene.sleepers},
+          {COUNT_SLEEPERS, scene.sleepers},
           {COUNT_SHARES, SWEEP_SHARES * scene.bodies},
           {COUNT_SWEEP_BLOCKS, blocks},
           {COUNT_SWEEP_ITEMS, TILE * blocks},

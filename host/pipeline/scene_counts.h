@@ -9,9 +9,10 @@
 namespace tandem {
 
 struct SceneCounts {
-  uint32_t bodies = 0;
+  uint32_t bodies = 0;    /* that are awake */
   uint32_t unbounded = 0; /* half-spaces: the first bodies */
   uint32_t large = 0;     /* these, and the bodies after them that are too large for a grid */
+  uint32_t sleepers = 0;  /* behind the bodies that are awake */
 };
 
 /* The entries of shared/counts.h with their values. */

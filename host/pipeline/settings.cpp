@@ -197,6 +197,8 @@ void validate(const Settings &settings)
   check_number("slop", settings.slop, "m", true);
   check_number("slop share", settings.slop_share, "(no unit)", true);
   check_number("restitution speed", settings.restitution_speed, "m/s", true);
+  check_number("sleep speed", settings.sleep_speed, "m/s", false);
+  check_number("sleep time", settings.sleep_time, "s", false);
 }
 
 } // namespace tandem

@@ -12,6 +12,7 @@
 #include "host/pipeline/pair_lists.h"
 #include "host/pipeline/primitives.h"
 #include "host/pipeline/setting_rows.h"
+#include "host/pipeline/sleeping.h"
 #include "host/pipeline/solvers/solvers.h"
 #include "host/pipeline/step_launches.h"
 #include "host/runtime/interface/pair_tests.h"
@@ -28,6 +29,7 @@ public:
   void run_all()
   {
     run(Kernel::begin_step);
+    if (plan().sleepers && plan().other_sleepers) list_sleepers(*this);
     run(Kernel::prepare_bodies);
     run_extensions(StepPoint::begin);
     find_pairs();
@@ -44,6 +46,7 @@ public:
     row_of(settings().solver).launch(*this);
     if (has(FEATURE_CONTINUOUS)) keep_out_of_walls();
     run_extensions(StepPoint::solved);
+    if (plan().sleeping) find_drowsy_islands(*this);
     commit();
   }
 
@@ -53,7 +56,18 @@ private:
     run(Kernel::compute_bounds);
     if (settings().bounds == Bounds::tight && has(FEATURE_CONVEX)) run(Kernel::tighten_bounds);
     if (plan().forces) run(Kernel::extend_bounds);
+    if (plan().sleepers) touch_sleepers();
     row_of(settings().broadphase).launch(*this);
+  }
+
+  /* Pairs with sleepers pass through the narrowphase before all others, because their contacts wake. */
+  void touch_sleepers()
+  {
+    find_near_sleepers(*this);
+    if (has(FEATURE_TREES)) find_leaf_pairs();
+    find_contacts();
+    run(Kernel::note_touched_sleepers);
+    run(Kernel::keep_sleeper_counts);
   }
 
   void find_leaf_pairs()
@@ -140,6 +154,8 @@ private:
     launcher().begin_commit();
     run(Kernel::commit_bodies);
     if (plan().forces) run(Kernel::clear_forces);
+    if (plan().sleeping)
+      run_range(Kernel::copy, COUNT_ZERO, COUNT_COMMIT_BODIES, {}, {Buffer::rest_count, Buffer::resting_steps});
     run(Kernel::cache_starts);
     run(Kernel::cache_pairs);
     run(Kernel::cache_impulses);

@@ -18,6 +18,11 @@ struct StepPlan {
   uint32_t capacity_pairs = 0;
   uint32_t capacity_cells = 0;
   bool forces = false; /* a program or a module applies forces to bodies */
+  bool sleeping = false;       /* Settings::sleeping */
+  bool drowsy = false;         /* some body had rested for long enough at the last step */
+  bool sleepers = false;       /* some bodies sleep */
+  bool other_sleepers = false; /* others than in the last step that listed them */
+  uint32_t island_rounds = 4;
   uint32_t colors = 16; /* up to COLOR_LIMIT + 1: the overflow constraints */
   uint32_t rounds = 16;
   std::array<uint32_t, COUNT_TOTAL> known{}; /* counts after the last step */

@@ -32,6 +32,12 @@ float inverse_batch_cell(float median)
   return edge > 0 ? 1 / edge : 1.0f;
 }
 
+/* At least one, and few enough that a count of them cannot overflow. */
+uint32_t sleep_steps(const Settings &settings)
+{
+  return static_cast<uint32_t>(std::clamp(std::ceil(settings.sleep_time / settings.step), 1.0f, 1e9f));
+}
+
 } // namespace
 
 Parameters parameters_of(const Scene &scene, const Settings &settings, Features features, float median)
@@ -63,6 +69,8 @@ Parameters parameters_of(const Scene &scene, const Settings &settings, Features 
   p.restitution_speed = settings.restitution_speed;
   p.hybrid_cell = 4 * median;
   p.inverse_batch_cell = inverse_batch_cell(median);
+  p.sleep_speed = settings.sleep_speed;
+  p.sleep_steps = sleep_steps(settings);
   p.features = features;
   return p;
 }

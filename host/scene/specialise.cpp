@@ -314,6 +314,7 @@ Specialisation specialise(const Scene &scene, const Settings &settings)
   for (uint32_t body : result.order) taken[body] = true;
   for (uint32_t body = 0; body < scene.bodies.size(); ++body)
     if (!taken[body]) result.order.push_back(body);
+  result.awake = static_cast<uint32_t>(result.order.size());
   return result;
 }
 

@@ -30,6 +30,7 @@ struct Specialisation {
   std::vector<uint32_t> order;
   uint32_t unbounded = 0; /* half-spaces */
   uint32_t large = 0;     /* half-spaces and large bodies */
+  uint32_t awake = 0;     /* all bodies but those that sleep, which come last */
   float median = 0;       /* m, of the bounding radii; it decides which bodies are large */
 };
 

@@ -236,14 +236,22 @@ std::vector<BodyId> World::Implementation::create(std::span<const Body> given)
   special.order.reserve(bodies() + arrival.new_slots());
   AddedBodies added(scene, arrival.slots, given);
   try {
-    if (brings_tables(arrival)) lay_out_anew(arrival);
-    else place_among_others(arrival);
+    if (brings_tables(arrival)) {
+      wake_all();
+      lay_out_anew(arrival);
+    } else {
+      place_among_others(arrival);
+    }
   } catch (...) {
     known_kinds.clear(); /* some may be of these bodies alone */
     throw;
   }
   added.keep();
-  for (size_t i = 0; i < ids.size(); ++i) ids[i] = slots.id_of(arrival.slots[i]);
+  for (size_t i = 0; i < ids.size(); ++i) {
+    ids[i] = slots.id_of(arrival.slots[i]);
+    if (given[i].type == BodyType::dynamic) ++awake_dynamics;
+    note_motion(arrival.slots[i], {given[i].linear_velocity, given[i].angular_velocity});
+  }
   return ids;
 }
 
@@ -265,9 +273,10 @@ void World::Implementation::place_among_others(const Arrival &arrival)
   for_each_run(indices, [&](size_t first, size_t count) {
     stage_new_bodies(uploads, scene, numbers, std::span(sorted_slots).subspan(first, count), indices[first]);
   });
-  const uint32_t pairs = memory.read<uint32_t>(Buffer::cached_start, 1, bodies()).front();
-  uploads.add(Buffer::cached_start, std::vector<uint32_t>(appended.size(), pairs), bodies() + size_t{1});
-  const auto entries = entries_of({bodies() + static_cast<uint32_t>(appended.size()), special.unbounded, special.large});
+  const uint32_t pairs = memory.read<uint32_t>(Buffer::cached_start, 1, special.awake).front();
+  uploads.add(Buffer::cached_start, std::vector<uint32_t>(appended.size(), pairs), special.awake + size_t{1});
+  const auto entries = entries_of({special.awake + static_cast<uint32_t>(appended.size()), special.unbounded,
+                                   special.large, sleepers.count()});
   for (const auto &[entry, value] : entries)
     uploads.add_count(static_cast<uint32_t>(entry), value);
   uploads.prepare(memory);
@@ -276,12 +285,16 @@ void World::Implementation::place_among_others(const Arrival &arrival)
   slots.append(appended.size());
   for (size_t region = 0; region < regions; ++region)
     slots.use_again(static_cast<BodyRegion>(region), arrival.again[region]);
+  keep_order_of_events();
   special.order.insert(special.order.end(), appended.begin(), appended.end());
   number_bodies();
   for (const auto &[entry, value] : scene_entries) plan.known[static_cast<size_t>(entry)] = value;
   ++state;
   uploads.write(memory);
+  bring_forward(appended); /* between those awake and those asleep */
+  counted_bodies = special.awake;
   forget_kept(memory);
+  if (!sleepers.empty()) sleepers_changed();
 }
 
 namespace {
@@ -317,6 +330,7 @@ void World::Implementation::plan_layout(const Arrival &arrival, std::vector<uint
   special.unbounded += static_cast<uint32_t>(arrival.appended[0].size());
   special.large += static_cast<uint32_t>(arrival.appended[0].size() + arrival.appended[1].size());
   special.median = arrival.median;
+  special.awake = static_cast<uint32_t>(order.size());
   special.features = settings.specialise ? needed : all_features();
   special.order = std::move(order);
   scene_features = needed;
@@ -326,6 +340,7 @@ void World::Implementation::plan_layout(const Arrival &arrival, std::vector<uint
   plan.features = special.features;
   plan.capacity_cells = cells_for(plan.bodies);
   scene_entries = entries_of({bodies(), special.unbounded, special.large});
+  counted_bodies = bodies();
   record_kernels();
   backends.take_features(special.features, buffers.needs().kernels);
   buffers.changed();
@@ -346,7 +361,7 @@ void World::Implementation::lay_out_anew(const Arrival &arrival)
   buffers.make_ready(sizes());
   const std::vector<uint32_t> old_order = special.order;
   std::vector<uint32_t> order = order_with(special, arrival.appended);
-  std::vector<float4> normals = normals_of_pairs(memory, bodies());
+  std::vector<float4> normals = normals_of_pairs(memory, special.awake);
   StagedUploads uploads;
   stage_carried_rows(uploads, memory, buffers, old_order, order);
   uploads.add(Buffer::cached_normal, std::move(normals));
@@ -373,7 +388,8 @@ void World::Implementation::lay_out_anew(const Arrival &arrival)
 
 std::vector<uint32_t> World::Implementation::distinct_indices(const char *call, std::span<const BodyId> ids) const
 {
-  std::vector<uint32_t> indices = indices_of(call, ids);
+  std::vector<uint32_t> indices;
+  for (const uint32_t slot : slots_of(call, ids)) indices.push_back(index_of_body[slot]);
   std::sort(indices.begin(), indices.end());
   const auto twice = std::adjacent_find(indices.begin(), indices.end());
   if (twice != indices.end())
@@ -383,9 +399,11 @@ std::vector<uint32_t> World::Implementation::distinct_indices(const char *call, 
 
 void World::Implementation::destroy(std::span<const BodyId> ids)
 {
-  const std::vector<uint32_t> indices = distinct_indices("destroy_bodies", ids);
+  distinct_indices("destroy_bodies", ids);
   if (ids.empty()) return;
   settle();
+  wake_bodies(slots_of("destroy_bodies", ids), true);
+  const std::vector<uint32_t> indices = distinct_indices("destroy_bodies", ids);
   buffers.make_ready(sizes());
   for (size_t region = 0; region < regions; ++region)
     slots.prepare_freeing(static_cast<BodyRegion>(region), indices.size());
@@ -397,7 +415,12 @@ void World::Implementation::destroy(std::span<const BodyId> ids)
   ++state;
   uploads.write(memory);
   forget_kept(memory);
-  for (const uint32_t index : indices) slots.free(special.order[index], region_of(index), statistics.steps);
+  for (const uint32_t index : indices) {
+    const uint32_t slot = special.order[index];
+    if (scene.bodies[slot].type == BodyType::dynamic && slots.status()[slot] == BodyStatus::present) --awake_dynamics;
+    moving_kinematics.erase(slot);
+    slots.free(slot, region_of(index), statistics.steps);
+  }
 }
 
 uint32_t World::Implementation::add_shape(const Shape &shape)

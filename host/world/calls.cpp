@@ -35,7 +35,7 @@ CommandList::Rows rows_at_point(const Vec3 &vector, const Point &point)
   return {row_of_vector(vector), high, low};
 }
 
-[[noreturn]] void refuse(const char *call, size_t index, const std::string &why)
+[[noreturn]] void refuse_entry(const char *call, size_t index, const std::string &why)
 {
   throw InputError(fmt::format("{}: entry {}: {}", call, index, why));
 }
@@ -43,7 +43,7 @@ CommandList::Rows rows_at_point(const Vec3 &vector, const Point &point)
 template <class Vector> void check_vector(const char *call, size_t index, const char *what, const Vector &v)
 {
   if (!is_finite_vector(v))
-    refuse(call, index, fmt::format("{} is {}; three finite numbers are needed", what, vector_text(v)));
+    refuse_entry(call, index, fmt::format("{} is {}; three finite numbers are needed", what, vector_text(v)));
 }
 
 void check_rotation(const char *call, size_t index, const Quat &q)
@@ -51,7 +51,7 @@ void check_rotation(const char *call, size_t index, const Quat &q)
   double square = 0;
   for (const float x : q) square += double{x} * x;
   if (!(std::abs(square - 1) < 2e-3))
-    refuse(call, index,
+    refuse_entry(call, index,
            fmt::format("orientation is [{}, {}, {}, {}]; a quaternion of length 1 is needed", q[0], q[1], q[2], q[3]));
 }
 
@@ -110,12 +110,12 @@ void add_push(CommandList &list, uint32_t body, const Push &push, uint32_t at_ce
 
 } // namespace
 
-std::vector<uint32_t> World::Implementation::indices_of(const char *call, std::span<const BodyId> ids) const
+std::vector<uint32_t> World::Implementation::slots_of(const char *call, std::span<const BodyId> ids) const
 {
-  std::vector<uint32_t> indices;
-  indices.reserve(ids.size());
-  for (const BodyId &id : ids) indices.push_back(index_of_body[slots.slot_of(call, id)]);
-  return indices;
+  std::vector<uint32_t> found;
+  found.reserve(ids.size());
+  for (const BodyId &id : ids) found.push_back(slots.slot_of(call, id));
+  return found;
 }
 
 /* Brings the buffers to what the calls so far have made of the world. */
@@ -126,8 +126,31 @@ void World::Implementation::settle()
   const minicl::ExactFloatingPoint environment;
   buffers.make_ready(sizes());
   ++state;
-  commands.apply(Kernel::apply_commands, memory, launcher);
-  force_commands.apply(Kernel::add_forces, memory, launcher);
+  wake_called();
+  std::vector<Kernel> kernels{Kernel::apply_commands}, force_kernels{Kernel::add_forces};
+  if (settings.sleeping) kernels.push_back(Kernel::disturb_rest), force_kernels.push_back(Kernel::disturb_rest);
+  commands.apply(kernels, index_of_body, memory, launcher);
+  force_commands.apply(force_kernels, index_of_body, memory, launcher);
+}
+
+/* Wakes the islands of the bodies that calls change, and of those beside bodies that are put elsewhere. */
+void World::Implementation::wake_called()
+{
+  if (sleepers.empty()) return set_elsewhere.clear();
+  std::vector<uint32_t> called;
+  commands.add_slots_to(called);
+  force_commands.add_slots_to(called);
+  wake_bodies(called, false);
+  wake_bodies(set_elsewhere, true);
+  set_elsewhere.clear();
+}
+
+/* Follows which kinematic bodies may move. */
+void World::Implementation::note_motion(uint32_t slot, const Velocity &velocity)
+{
+  if (scene.bodies[slot].type != BodyType::kinematic) return;
+  if (velocity.linear == Vec3{0, 0, 0} && velocity.angular == Vec3{0, 0, 0}) moving_kinematics.erase(slot);
+  else moving_kinematics.insert(slot);
 }
 
 /* Many bodies are read with their whole buffers, because each transfer from a device takes as long as some thousands of
@@ -135,12 +158,12 @@ void World::Implementation::settle()
 std::vector<BodyState> World::Implementation::read(std::span<const BodyId> ids)
 {
   constexpr size_t rows_per_transfer = 1024;
-  const std::vector<uint32_t> indices = indices_of("read_bodies", ids);
+  const std::vector<uint32_t> read = slots_of("read_bodies", ids);
   settle();
   std::vector<BodyState> states;
   states.reserve(ids.size());
   if (ids.size() * rows_per_transfer < bodies()) {
-    for (const uint32_t index : indices) states.push_back(download_body(memory, index));
+    for (const uint32_t slot : read) states.push_back(download_body(memory, index_of_body[slot]));
     return states;
   }
   const std::vector<BodyState> all = download_bodies(memory, special.order);
@@ -150,55 +173,62 @@ std::vector<BodyState> World::Implementation::read(std::span<const BodyId> ids)
 
 void World::Implementation::set_states(std::span<const BodyId> ids, std::span<const BodyState> states)
 {
-  const std::vector<uint32_t> indices = indices_of("set_states", ids);
+  const std::vector<uint32_t> called = slots_of("set_states", ids);
   check_entries("set_states", ids.size(), states);
   commands.prepare(2 * ids.size());
+  if (settings.sleeping) set_elsewhere.insert(set_elsewhere.end(), called.begin(), called.end());
   for (size_t i = 0; i < ids.size(); ++i) {
-    commands.add(indices[i], COMMAND_SET_POSE, rows_of_pose({states[i].position, states[i].orientation}));
-    commands.add(indices[i], COMMAND_SET_VELOCITY,
+    note_motion(called[i], {states[i].linear_velocity, states[i].angular_velocity});
+    commands.add(called[i], COMMAND_SET_POSE, rows_of_pose({states[i].position, states[i].orientation}));
+    commands.add(called[i], COMMAND_SET_VELOCITY,
                  rows_of_vectors(states[i].linear_velocity, states[i].angular_velocity));
   }
 }
 
 void World::Implementation::set_velocities(std::span<const BodyId> ids, std::span<const Velocity> velocities)
 {
-  const std::vector<uint32_t> indices = indices_of("set_velocities", ids);
+  const std::vector<uint32_t> called = slots_of("set_velocities", ids);
   check_entries("set_velocities", ids.size(), velocities);
   commands.prepare(ids.size());
-  for (size_t i = 0; i < ids.size(); ++i)
-    commands.add(indices[i], COMMAND_SET_VELOCITY, rows_of_vectors(velocities[i].linear, velocities[i].angular));
+  for (size_t i = 0; i < ids.size(); ++i) {
+    note_motion(called[i], velocities[i]);
+    commands.add(called[i], COMMAND_SET_VELOCITY, rows_of_vectors(velocities[i].linear, velocities[i].angular));
+  }
 }
 
 void World::Implementation::move_to(std::span<const BodyId> ids, std::span<const Pose> poses)
 {
-  const std::vector<uint32_t> indices = indices_of("move_to", ids);
+  const std::vector<uint32_t> called = slots_of("move_to", ids);
   check_entries("move_to", ids.size(), poses);
   for (size_t i = 0; i < ids.size(); ++i)
     if (scene.bodies[ids[i].index].type != BodyType::kinematic)
-      refuse("move_to", i, fmt::format("body {} is not kinematic; set_states puts other bodies elsewhere", ids[i].index));
+      refuse_entry("move_to", i, fmt::format("body {} is not kinematic; set_states puts other bodies elsewhere", ids[i].index));
   commands.prepare(ids.size());
-  for (size_t i = 0; i < ids.size(); ++i) commands.add(indices[i], COMMAND_MOVE_TO, rows_of_pose(poses[i]));
+  for (size_t i = 0; i < ids.size(); ++i) {
+    moving_kinematics.insert(called[i]);
+    commands.add(called[i], COMMAND_MOVE_TO, rows_of_pose(poses[i]));
+  }
 }
 
 void World::Implementation::add_impulses(std::span<const BodyId> ids, std::span<const Impulse> impulses)
 {
-  const std::vector<uint32_t> indices = indices_of("add_impulses", ids);
+  const std::vector<uint32_t> called = slots_of("add_impulses", ids);
   check_entries("add_impulses", ids.size(), impulses);
   commands.prepare(2 * ids.size());
   for (size_t i = 0; i < ids.size(); ++i)
-    add_push(commands, indices[i], {impulses[i].impulse, impulses[i].angular_impulse, impulses[i].point},
+    add_push(commands, called[i], {impulses[i].impulse, impulses[i].angular_impulse, impulses[i].point},
              COMMAND_ADD_IMPULSE, COMMAND_ADD_IMPULSE_AT);
 }
 
 void World::Implementation::add_forces(std::span<const BodyId> ids, std::span<const Force> forces)
 {
-  const std::vector<uint32_t> indices = indices_of("add_forces", ids);
+  const std::vector<uint32_t> called = slots_of("add_forces", ids);
   check_entries("add_forces", ids.size(), forces);
   if (ids.empty()) return;
   use_forces();
   force_commands.prepare(2 * ids.size());
   for (size_t i = 0; i < ids.size(); ++i)
-    add_push(force_commands, indices[i], {forces[i].force, forces[i].torque, forces[i].point}, COMMAND_ADD_FORCE,
+    add_push(force_commands, called[i], {forces[i].force, forces[i].torque, forces[i].point}, COMMAND_ADD_FORCE,
              COMMAND_ADD_FORCE_AT);
 }
 

@@ -10,12 +10,12 @@ namespace tandem {
 namespace {
 
 /* The number of items that the last step left; later ones are of older steps. */
-size_t items_of(Memory &memory, Buffer buffer, uint32_t bodies, uint32_t pairs)
+size_t items_of(Memory &memory, Buffer buffer, BodyNumbers bodies, uint32_t pairs)
 {
   const BufferRow &row = row_of(buffer);
   switch (row.capacity) {
-  case Capacity::BODIES: return bodies;
-  case Capacity::BODIES_PLUS_ONE: return size_t{bodies} + 1;
+  case Capacity::BODIES: return bodies.all;
+  case Capacity::BODIES_PLUS_ONE: return size_t{bodies.awake} + 1;
   case Capacity::PAIRS: return pairs;
   default: return memory.bytes(buffer) / (row.per_item * size_of(row.element));
   }
@@ -40,9 +40,9 @@ void turn_carried(Memory &memory, const std::vector<CarriedBuffer> &carried) noe
   for (const CarriedBuffer &buffer : carried) memory.exchange(buffer.now, buffer.previous);
 }
 
-uint64_t hash_carried(Memory &memory, const std::vector<CarriedBuffer> &carried, uint32_t bodies, Features features)
+uint64_t hash_carried(Memory &memory, const std::vector<CarriedBuffer> &carried, BodyNumbers bodies, Features features)
 {
-  const uint32_t pairs = memory.read<uint32_t>(Buffer::cached_start, 1, bodies).front();
+  const uint32_t pairs = memory.read<uint32_t>(Buffer::cached_start, 1, bodies.awake).front();
   uint64_t hash = 0;
   for (const CarriedBuffer &buffer : carried) {
     const BufferRow &row = row_of(buffer.now);

@@ -23,8 +23,13 @@ constexpr bool is_carried(Lifetime lifetime) { return lifetime == Lifetime::STAT
 
 TANDEM_API void turn_carried(Memory &memory, const std::vector<CarriedBuffer> &carried) noexcept;
 
-/* A hash of these buffers, as far as a scene of these features has them. It is equal iff the next step will be
- * equal. */
-uint64_t hash_carried(Memory &memory, const std::vector<CarriedBuffer> &carried, uint32_t bodies, Features features);
+/* The bodies of a world, and those of them that do not sleep, which come first. */
+struct BodyNumbers {
+  uint32_t all, awake;
+};
+
+/* A hash of these buffers, as far as a scene of these features has them. If nobody sleeps, it is equal iff the next step
+ * will be equal. */
+uint64_t hash_carried(Memory &memory, const std::vector<CarriedBuffer> &carried, BodyNumbers bodies, Features features);
 
 } // namespace tandem

@@ -25,15 +25,17 @@ void CommandList::prepare(size_t more)
 }
 
 /* Returns the number of bodies that have commands. */
-uint32_t CommandList::upload(Memory &memory)
+uint32_t CommandList::upload(const std::vector<uint32_t> &index_of_body, Memory &memory)
 {
-  std::stable_sort(commands_.begin(), commands_.end(),
-                   [](const Command &one, const Command &other) { return one.body < other.body; });
+  std::stable_sort(commands_.begin(), commands_.end(), [&](const Command &one, const Command &other) {
+    return index_of_body[one.slot] < index_of_body[other.slot];
+  });
   starts_.clear(), targets_.clear(), values_.clear();
   for (const Command &command : commands_) {
     const auto place = static_cast<uint32_t>(targets_.size() / 2);
-    if (place == 0 || targets_[2 * place - 2] != command.body) starts_.push_back(place);
-    targets_.insert(targets_.end(), {command.body, command.kind});
+    const uint32_t body = index_of_body[command.slot];
+    if (place == 0 || targets_[2 * place - 2] != body) starts_.push_back(place);
+    targets_.insert(targets_.end(), {body, command.kind});
     values_.insert(values_.end(), command.rows.begin(), command.rows.end());
   }
   starts_.push_back(static_cast<uint32_t>(commands_.size()));
@@ -43,12 +45,18 @@ uint32_t CommandList::upload(Memory &memory)
   return static_cast<uint32_t>(starts_.size() - 1);
 }
 
-void CommandList::apply(Kernel kernel, Memory &memory, Launcher &launcher)
+void CommandList::add_slots_to(std::vector<uint32_t> &slots) const
+{
+  for (const Command &command : commands_) slots.push_back(command.slot);
+}
+
+void CommandList::apply(std::span<const Kernel> kernels, const std::vector<uint32_t> &index_of_body, Memory &memory,
+                        Launcher &launcher)
 {
   if (commands_.empty()) return;
-  const uint32_t bodies = upload(memory);
+  const uint32_t bodies = upload(index_of_body, memory);
   memory.upload(Buffer::counts, &bodies, sizeof bodies, COUNT_LENGTH * sizeof bodies);
-  launcher.launch({kernel, {}, {}, COUNT_ZERO, COUNT_LENGTH, bodies});
+  for (const Kernel kernel : kernels) launcher.launch({kernel, {}, {}, COUNT_ZERO, COUNT_LENGTH, bodies});
   commands_.clear();
 }
 

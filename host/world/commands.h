@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "host/runtime/launcher.h"
@@ -22,18 +23,21 @@ public:
   bool empty() const { return commands_.empty(); }
   /* Ensures that so many more can be added without failing. */
   void prepare(size_t more);
-  /* body: its index in the buffers. kind: COMMAND_. */
-  void add(uint32_t body, uint32_t kind, const Rows &rows) noexcept { commands_.push_back({body, kind, rows}); }
-  /* Uploads the list, launches the kernel over its bodies and empties the list. If it throws, the list is as it was and
-   * nothing was applied. */
-  void apply(Kernel kernel, Memory &memory, Launcher &launcher);
+  /* slot: the body's index for users, because bodies may move in the buffers before the list is applied. kind:
+   * COMMAND_. */
+  void add(uint32_t slot, uint32_t kind, const Rows &rows) noexcept { commands_.push_back({slot, kind, rows}); }
+  void add_slots_to(std::vector<uint32_t> &slots) const;
+  /* Uploads the list, launches the kernels over its bodies and empties the list. If it throws, the list is as it was and
+   * nothing was applied. index_of_body: in the buffers, by slot. */
+  void apply(std::span<const Kernel> kernels, const std::vector<uint32_t> &index_of_body, Memory &memory,
+             Launcher &launcher);
 
 private:
   struct Command {
-    uint32_t body, kind;
+    uint32_t slot, kind;
     Rows rows;
   };
-  uint32_t upload(Memory &memory);
+  uint32_t upload(const std::vector<uint32_t> &index_of_body, Memory &memory);
 
   std::vector<Command> commands_;
   std::vector<uint32_t> starts_, targets_;

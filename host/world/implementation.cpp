@@ -24,6 +24,12 @@ Settings resolved(Settings settings, const Scene &scene, const Placement &placem
 
 } // namespace
 
+namespace {
+
+Velocity initial_velocity_of(const Body &body) { return {body.linear_velocity, body.angular_velocity}; }
+
+} // namespace
+
 uint32_t first_capacity(const Scene &scene, const Settings &settings)
 {
   return static_cast<uint32_t>(std::min<uint64_t>(5 * uint64_t{scene.bodies.size()} + 1024, settings.max_pairs));
@@ -37,10 +43,12 @@ World::Implementation::Implementation(const Scene &given, const Settings &chosen
 {
   launcher.set_on_commit([this] { turn(); });
   plan.forces = module_applies_forces();
+  plan.sleeping = settings.sleeping;
   if (!settings.specialise) special.features = all_features();
   plan.features = special.features;
   plan.bodies = static_cast<uint32_t>(scene.bodies.size());
   scene_entries = entries_of({plan.bodies, special.unbounded, special.large});
+  counted_bodies = plan.bodies;
   plan.capacity_cells = cells_for(plan.bodies);
   plan.capacity_pairs = first_capacity(scene, settings);
   record_kernels();
@@ -48,6 +56,10 @@ World::Implementation::Implementation(const Scene &given, const Settings &chosen
   buffers.allocate(sizes());
   upload_scene();
   guess_counts();
+  for (uint32_t slot = 0; slot < slots.count(); ++slot) {
+    note_motion(slot, initial_velocity_of(scene.bodies[slot]));
+    if (scene.bodies[slot].type == BodyType::dynamic) ++awake_dynamics;
+  }
 }
 
 World::Implementation::~Implementation() { backends.finish_at_last(); }
@@ -83,8 +95,10 @@ void World::Implementation::record_kernels()
   all.colors = std::max(plan.colors, COLOR_LIMIT);
   all.rounds = BATCH_ROUNDS * COLOR_LIMIT; /* the most rounds after which a batcher launches another kernel */
   Recorder recorder;
+  all.drowsy = all.sleepers = all.other_sleepers = settings.sleeping;
   launch_step(recorder, all, settings);
   note_shapes(recorder);
+  if (settings.sleeping) note_sleep(recorder);
   for (const Extension &extension : settings.extensions) note_rows(recorder, *extension.module);
   buffers.take_needs(std::move(recorder));
 }
@@ -147,8 +161,8 @@ void World::Implementation::guess_counts() noexcept
   known.fill(plan.capacity_pairs);
   known[COUNT_KEPT] = 0;
   for (const auto &[entry, value] : scene_entries) known[entry] = value;
-  known[COUNT_COMMIT_BODIES] = bodies();
-  known[COUNT_COMMIT_BODIES_PLUS_ONE] = bodies() + 1;
+  known[COUNT_COMMIT_BODIES] = special.awake;
+  known[COUNT_COMMIT_BODIES_PLUS_ONE] = special.awake + 1;
   known[COUNT_CELLS_PLUS_ONE] = plan.capacity_cells + 1;
   for (uint32_t color = 0; color <= COLOR_LIMIT; ++color)
     known[COLOR_START + color] = static_cast<uint32_t>(uint64_t{plan.capacity_pairs} * color / 8);
@@ -168,11 +182,13 @@ bool World::Implementation::module_applies_forces() const
   return false;
 }
 
-/* The structure is made once for all queries between two changes of the state. */
+/* The structure is made once for all queries between two changes of the state. Queries find sleeping bodies too, so
+ * kernels see all bodies until the next step begins. */
 QueryTarget World::Implementation::query_target()
 {
   const uint32_t structure = row_of(settings.broadphase).queries;
   settle();
+  if (counted_bodies != bodies()) count_bodies(bodies());
   if (structure_state != state) {
     Recorder recorder;
     StepLaunches recorded(recorder, plan, settings), launches(launcher, plan, settings);
@@ -182,6 +198,7 @@ QueryTarget World::Implementation::query_target()
     begin_launches();
     launch_query_structure(launches, structure);
     launches_ended = true;
+    if (!sleepers.empty()) forget_kept(memory); /* it belongs to other bodies than those of a step */
     structure_state = state;
   }
   return {memory, launcher, scene, special.order, structure};

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <set>
 #include <span>
@@ -15,9 +16,11 @@
 
 #include <tandem/world.h>
 
+#include "host/pipeline/sleeping.h"
 #include "host/pipeline/step.h"
 #include "host/runtime/launcher.h"
 #include "host/runtime/memory.h"
+#include "host/runtime/recorder.h"
 #include "host/scene/body_buffers.h"
 #include "host/scene/hull_buffers.h"
 #include "host/scene/specialise.h"
@@ -26,6 +29,7 @@
 #include "host/world/commands.h"
 #include "host/world/placed_backends.h"
 #include "host/world/queries.h"
+#include "host/world/sleepers.h"
 #include "host/world/step_buffers.h"
 
 namespace tandem {
@@ -60,6 +64,7 @@ struct World::Implementation {
     size_t quarantined;
   };
   void step();
+  void sleep_on() noexcept;
   void run_until_whole();
   void turn() noexcept;
   void turn_back() noexcept;
@@ -77,7 +82,8 @@ struct World::Implementation {
 
   /* --- calls between two steps: calls.cpp ------------------------------------------------------------------------ */
   void settle();
-  std::vector<uint32_t> indices_of(const char *call, std::span<const BodyId> ids) const;
+  std::vector<uint32_t> slots_of(const char *call, std::span<const BodyId> ids) const;
+  void wake_called();
   std::vector<BodyState> read(std::span<const BodyId> ids);
   void set_states(std::span<const BodyId> ids, std::span<const BodyState> states);
   void set_velocities(std::span<const BodyId> ids, std::span<const Velocity> velocities);
@@ -108,6 +114,26 @@ struct World::Implementation {
   void plan_layout(const Arrival &arrival, std::vector<uint32_t> order);
   void stage_arrival(StagedUploads &uploads, const Arrival &arrival) const;
 
+  /* --- islands that sleep: sleep.cpp ------------------------------------------------------------------------------ */
+  std::vector<BodyRows> body_rows(const std::vector<bool> &touched) const;
+  std::vector<CarriedBuffer> pair_rows(const std::vector<bool> &touched) const;
+  void note_sleep(Recorder &recorder) const;
+  void set_length(uint32_t length);
+  void count_bodies(uint32_t awake);
+  void count_awake_bodies();
+  void sleepers_changed();
+  void keep_order_of_events();
+  void put_to_sleep();
+  void take_fallen(const std::vector<uint32_t> &falls, const std::vector<uint32_t> &labels);
+  void bring_forward(const std::vector<uint32_t> &woken);
+  void return_pairs(const std::vector<SleepingIsland> &islands, uint32_t first);
+  void wake(const std::set<uint32_t> &islands);
+  void wake_all();
+  void wake_bodies(std::span<const uint32_t> of_slots, bool beside);
+  void wake_touched();
+  bool nothing_moves() const;
+  void note_motion(uint32_t slot, const Velocity &velocity);
+
   /* --- modules of users (host/runtime/interface/module.h): extensions.cpp -------------------------------------- */
   void note_rows(Recorder &recorder, const Module &module) const;
   void check_write(Buffer buffer, size_t bytes, size_t offset) const;
@@ -132,6 +158,7 @@ struct World::Implementation {
                                               structure belongs to */
   bool launches_ended = true;
   bool turned = false; /* the commit of an unfinished step has begun */
+  bool idle = false;   /* the last step had nothing to do, so it has no events and no contacts */
   bool whole = true;   /* the last step succeeded; after one that failed there are no events or figures */
   /* Bodies that an unfinished step has quarantined, by their index in the buffers, with their earlier records. */
   std::vector<std::pair<uint32_t, BodyRecord>> taken_out;
@@ -140,6 +167,13 @@ struct World::Implementation {
   size_t uploaded_shapes = 0, uploaded_materials = 0; /* of the scene, that the tables hold */
   std::set<BodyKind> known_kinds;                     /* of bodies; filled by the first call that creates some */
   CommandList commands, force_commands;               /* not applied yet */
+  Sleepers sleepers;
+  std::vector<SleepEvent> sleep_events, sleep_events_to_come; /* of the last step, and since it ended */
+  std::vector<uint32_t> set_elsewhere; /* slots of the bodies that commands not applied yet put elsewhere */
+  std::set<uint32_t> moving_kinematics; /* slots */
+  uint32_t awake_dynamics = 0;
+  uint32_t counted_bodies = 0; /* that kernels see: those awake, or for queries all */
+  uint64_t quiet_state = 0;    /* the state that the last step left */
   std::vector<Quarantine> quarantined;
   std::optional<BatchFault> fault;
   Statistics statistics;

@@ -29,18 +29,32 @@ constexpr uint32_t most_rounds = 1 << 20;
 
 void World::Implementation::step()
 {
+  if (nothing_moves()) return sleep_on();
   launcher.set_step(statistics.steps);
   ++state;
   const Attempt before{plan, statistics, quarantined.size()};
   try {
     settle();
     buffers.make_ready(sizes());
+    count_awake_bodies();
     run_until_whole();
   } catch (...) {
     undo(before);
     tell_why_step_failed();
   }
   whole = true;
+  idle = false;
+  if (settings.sleeping) put_to_sleep();
+  sleep_events = std::exchange(sleep_events_to_come, {});
+  quiet_state = state;
+}
+
+/* A step in which nothing moves launches nothing. */
+void World::Implementation::sleep_on() noexcept
+{
+  ++statistics.steps;
+  idle = true;
+  sleep_events.clear();
 }
 
 void World::Implementation::run_until_whole()
@@ -84,6 +98,9 @@ void World::Implementation::undo(const Attempt &before) noexcept
   const uint32_t capacity = plan.capacity_pairs;
   plan = before.plan;
   plan.capacity_pairs = capacity;
+  plan.sleepers = !sleepers.empty();
+  plan.other_sleepers = true;
+  for (const auto &[entry, value] : scene_entries) plan.known[static_cast<size_t>(entry)] = value;
   if (capacity != before.plan.capacity_pairs) guess_counts();
   try {
     restore_bodies();
@@ -139,6 +156,9 @@ void World::Implementation::accept()
   plan.rounds = std::clamp<uint32_t>(plan.known[COUNT_ROUNDS] + 3, 4, most_rounds);
   plan.colors = std::min(plan.known[COUNT_COLORS] + 1, COLOR_LIMIT);
   if (plan.known[COUNT_COLORS] > COLOR_LIMIT) plan.colors = COLOR_LIMIT + 1;
+  if (plan.drowsy) plan.island_rounds = std::max<uint32_t>(plan.known[COUNT_ISLAND_ROUNDS] + 2, 4);
+  plan.drowsy = plan.known[COUNT_DROWSY] > 0;
+  plan.other_sleepers = false;
 }
 
 void World::Implementation::prepare_repetition(uint32_t status, bool &may_forget)
@@ -146,10 +166,12 @@ void World::Implementation::prepare_repetition(uint32_t status, bool &may_forget
   const uint32_t needed = plan.known[COUNT_PAIRS_NEEDED];
   if (status & STATUS_ROUNDS) plan.rounds = std::min(2 * plan.rounds, most_rounds);
   if (status & STATUS_COLORS) plan.colors = plan.known[COUNT_COLORS];
+  if (status & STATUS_ISLANDS) plan.island_rounds = std::min(2 * plan.island_rounds, most_rounds);
   if (plan.colors > COLOR_LIMIT && !(status & STATUS_PAIRS)) enlarge(plan.capacity_pairs);
   if (status & STATUS_NONFINITE) quarantine_from(plan.known[COUNT_NONFINITE]);
-  plan.known[COUNT_COMMIT_BODIES] = bodies();
-  plan.known[COUNT_COMMIT_BODIES_PLUS_ONE] = bodies() + 1;
+  if (status & STATUS_WAKE) wake_touched();
+  plan.known[COUNT_COMMIT_BODIES] = special.awake;
+  plan.known[COUNT_COMMIT_BODIES_PLUS_ONE] = special.awake + 1;
   plan.known[COUNT_COMMIT_PAIRS] = plan.known[COUNT_PAIRS];
   plan.known[COUNT_COMMIT_CONSTRAINTS] = plan.known[COUNT_CONSTRAINTS];
   if (status & STATUS_PAIRS) grow_pairs(needed, may_forget); /* last, because it forgets the counts */
@@ -207,7 +229,7 @@ void World::Implementation::quarantine_from(uint32_t code)
   const uint32_t first = code & (body_numbers - 1), stage = code / body_numbers;
   quarantine(first, stage);
   if (taken_out.size() > taken_one_by_one)
-    for (const uint32_t body : bodies_not_finite(memory, bodies()))
+    for (const uint32_t body : bodies_not_finite(memory, special.awake))
       if (body != first) quarantine(body, stage);
   forget_kept(memory);
 }
@@ -221,6 +243,7 @@ void World::Implementation::quarantine(uint32_t index, uint32_t stage)
   taken_out.emplace_back(index, tandem::read_body(memory, index)); /* first, so that it can be restored */
   quarantine_body(memory, index);
   slots.quarantine(body);
+  --awake_dynamics; /* nothing else can stop being finite, as kinematic bodies have given velocities */
 }
 
 } // namespace tandem

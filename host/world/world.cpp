@@ -109,6 +109,8 @@ void World::set_body_unchecked(uint32_t body, const BodyState &state)
   ++implementation_->state;
   answer("a body", implementation_->slots.existing(), [&] {
     implementation_->settle(); /* what was called before comes before */
+    implementation_->wake_bodies(std::span(&body, 1), true);
+    implementation_->note_motion(body, {state.linear_velocity, state.angular_velocity});
     upload_body(implementation_->memory, implementation_->index_of_body.at(body), state);
   });
 }
@@ -209,10 +211,26 @@ void World::read_bytes(Buffer buffer, void *to, size_t bytes)
   answer("a buffer", implementation_->slots.existing(), [&] { implementation_->memory.download(buffer, to, bytes); });
 }
 
+bool World::is_asleep(const BodyId &id) const
+{
+  return implementation_->sleepers.sleeps(implementation_->slots.slot_of("is_asleep", id));
+}
+
+void World::wake_bodies(std::span<const BodyId> ids)
+{
+  answer("waking", implementation_->slots.existing(), [&] {
+    const std::vector<uint32_t> slots = implementation_->slots_of("wake_bodies", ids);
+    implementation_->settle();
+    implementation_->wake_bodies(slots, false);
+  });
+}
+
+const std::vector<SleepEvent> &World::sleep_events() const { return implementation_->sleep_events; }
+
 std::vector<ContactEvent> World::contact_events()
 {
   if (!implementation_->settings.events) throw InputError("contact_events: there are none without Settings::events");
-  if (!implementation_->whole) return {};
+  if (!implementation_->whole || implementation_->idle) return {};
   return answer("the contact events", implementation_->slots.existing(), [&] {
     return download_events(implementation_->memory, implementation_->scene, implementation_->events_order());
   });
@@ -222,7 +240,7 @@ std::vector<PairEvent> World::pair_events()
 {
   if (!implementation_->settings.pair_events)
     throw InputError("pair_events: there are none without Settings::pair_events");
-  if (!implementation_->whole) return {};
+  if (!implementation_->whole || implementation_->idle) return {};
   return answer("the pair events", implementation_->slots.existing(),
                 [&] { return download_pair_events(implementation_->memory, implementation_->events_order()); });
 }
@@ -274,7 +292,9 @@ Statistics World::statistics()
   return answer("the statistics", implementation_->slots.existing(), [&] {
     implementation_->settle();
     Statistics s = implementation_->statistics;
-    if (implementation_->whole) measure_contacts(implementation_->memory, s);
+    if (implementation_->whole && !implementation_->idle) measure_contacts(implementation_->memory, s);
+    s.asleep = implementation_->sleepers.count();
+    s.sleeping_islands = static_cast<uint32_t>(implementation_->sleepers.islands());
     s.kinetic_energy = kinetic_energy(implementation_->memory, implementation_->scene, implementation_->special.order);
     return s;
   });
@@ -294,8 +314,10 @@ uint64_t World::state_hash()
   const Implementation &world = *implementation_;
   uint64_t hash = answer("the hash", world.slots.existing(), [&] {
     implementation_->settle();
-    return hash_carried(implementation_->memory, world.buffers.carried(), world.bodies(), world.scene_features);
+    return hash_carried(implementation_->memory, world.buffers.carried(), {world.bodies(), world.special.awake},
+                        world.scene_features);
   });
+  hash = world.sleepers.hash(hash);
   for (const Quarantine &taken : world.quarantined) hash = hash_bytes(&taken.body, sizeof taken.body, hash);
   return hash;
 }

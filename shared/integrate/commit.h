@@ -28,6 +28,12 @@ SHARED void begin_step_item(GLOBAL uint *counts, uint i)
   counts[COUNT_FIRST_CONFLICT] = INDEX_NONE;
   counts[COUNT_MISBATCHED] = 0u;
   counts[COUNT_FIRST_MISBATCHED] = INDEX_NONE;
+  counts[COUNT_SLEEPER_PAIRS_NEEDED] = 0u;
+  counts[COUNT_TOUCHED_SLEEPERS] = 0u;
+  counts[COUNT_DROWSY] = 0u;
+  counts[COUNT_ISLAND_ROUNDS] = 0u;
+  counts[COUNT_ISLANDS_OPEN] = 0u;
+  counts[COUNT_FALLING_ASLEEP] = 0u;
 }
 
 SHARED void check_bodies_item(GLOBAL const float4 *body_position, GLOBAL const float4 *solver_velocity,
@@ -46,10 +52,14 @@ SHARED void finish_step_item(GLOBAL uint *counts, uint colors, uint i)
 {
   (void)i;
   uint status = 0u;
+  if (counts[COUNT_SLEEPER_PAIRS_NEEDED] > counts[COUNT_PAIRS_NEEDED])
+    counts[COUNT_PAIRS_NEEDED] = counts[COUNT_SLEEPER_PAIRS_NEEDED];
   if (counts[COUNT_PAIRS_NEEDED] > counts[CAPACITY_PAIRS]) status |= STATUS_PAIRS;
   if (counts[COUNT_UNCOLORED] != 0u) status |= STATUS_ROUNDS;
   if (counts[COUNT_COLORS] > colors) status |= STATUS_COLORS;
   if (counts[COUNT_NONFINITE] != INDEX_NONE) status |= STATUS_NONFINITE;
+  if (counts[COUNT_ISLANDS_OPEN] != 0u) status |= STATUS_ISLANDS;
+  if (counts[COUNT_TOUCHED_SLEEPERS] != 0u) status |= STATUS_WAKE;
   uint whole = status == 0u ? 1u : 0u;
   counts[COUNT_STATUS] = status;
   counts[COUNT_COMMIT_BODIES] = whole * counts[COUNT_BODIES];

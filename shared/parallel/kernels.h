@@ -13,6 +13,7 @@
 #include "shared/parallel/move.h"
 #include "shared/parallel/radix_sort.h"
 #include "shared/parallel/reduce.h"
+#include "shared/parallel/rows.h"
 #include "shared/parallel/scan.h"
 #include "shared/parallel/search.h"
 #endif

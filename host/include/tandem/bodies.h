@@ -46,4 +46,10 @@ struct Impulse {
   std::optional<Point> point = std::nullopt;
 };
 
+/* A body that fell asleep or woke. */
+struct SleepEvent {
+  BodyId body;
+  bool asleep = false;
+};
+
 } // namespace tandem

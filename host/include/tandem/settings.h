@@ -70,6 +70,10 @@ struct Settings {
                           motion */
   bool pair_events =
       false; /* lists pairs whose bounds begin, continue and cease to overlap (World::pair_events); changes no motion */
+  bool sleeping = false;     /* islands of bodies at rest fall asleep and cost nothing (docs/worlds.md) */
+  float sleep_speed = 0.05f; /* m/s, > 0: a body rests while no point of it is faster; smaller bodies than 0.5 m in radius
+                                in proportion */
+  float sleep_time = 0.5f;   /* s, > 0: bodies that have rested for so long fall asleep with their island */
   uint32_t max_pairs =
       most_pairs;         /* 1 .. most_pairs: a step with more pairs fails, so memory never grows beyond them */
   bool specialise = true; /* false: every feature is built and run, with the same bits */

@@ -64,6 +64,8 @@ struct Statistics {
   double kinetic_energy = 0; /* J, linear and angular */
   uint32_t nonfinite = 0;    /* bodies quarantined so far */
   uint32_t overflow = 0;     /* steps that ran again with larger buffers */
+  uint32_t asleep = 0;       /* bodies that sleep; without Settings::sleeping none do */
+  uint32_t sleeping_islands = 0;
   /* Of the last step, with the solver `direct` only: */
   uint32_t direct_islands = 0; /* islands that it solved */
   uint32_t direct_left = 0;    /* touching pairs in islands too large for it, left to the iterative solver */
@@ -143,6 +145,15 @@ public:
    * of forces. */
   void add_forces(std::span<const BodyId> ids, std::span<const Force> forces);
   void add_force(const BodyId &id, const Force &force) { add_forces(std::span(&id, 1), std::span(&force, 1)); }
+
+  /* Bodies that touch each other fall asleep together when all of them have rested for Settings::sleep_time. They wake
+   * when a body that is awake touches one of them, when one of them is changed by a call, and when a body beside them is
+   * destroyed or set elsewhere. */
+  bool is_asleep(const BodyId &id) const;
+  void wake_bodies(std::span<const BodyId> ids);
+  void wake_body(const BodyId &id) { wake_bodies(std::span(&id, 1)); }
+  /* Who fell asleep in the last step, and who woke in it or between it and the step before. */
+  const std::vector<SleepEvent> &sleep_events() const;
 
   /* The events of the last step, sorted by (a, b); there are none before the first step. A step that ran again with
    * larger buffers reports them once. Throws InputError without Settings::events. */

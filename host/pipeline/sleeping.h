@@ -1,0 +1,31 @@
+/* sleeping.h - the launches by which islands fall asleep and are woken: those of the step, and those between two steps
+ * that move rows of bodies and cached pairs (shared/sleeping/). */
+#pragma once
+
+#include <span>
+
+#include "host/pipeline/step_launches.h"
+
+namespace tandem {
+
+/* Sorts the boxes of the bodies that sleep, for find_near_sleepers. */
+void list_sleepers(StepLaunches &step);
+/* Lists the pairs of a body that is awake and a sleeper near it, as the step's pairs. */
+void find_near_sleepers(StepLaunches &step);
+/* Counts for how long bodies have rested, and chooses those that fall asleep. */
+void find_drowsy_islands(StepLaunches &step);
+
+/* A buffer with a row for each body, and where its rows are to be written. */
+struct BodyRows {
+  Buffer from;
+  std::vector<Buffer> to;
+};
+/* Moves the rows listed in move_from to the places in move_to; counts[length] of them, at most `most`. */
+void move_body_rows(Launcher &launcher, const BodyRows &rows, uint32_t length, uint32_t most);
+
+/* Computes the new places of the bodies, of which some fall asleep, and of the cached pairs. */
+void place_awake_first(StepLaunches &step, uint32_t cached_pairs);
+/* Copies rows of cached pairs to their new places in another buffer. cached_pairs: at COUNT_LENGTH. */
+void move_pair_rows(Launcher &launcher, Buffer from, Buffer to, uint32_t cached_pairs);
+
+} // namespace tandem

@@ -1,0 +1,95 @@
+/* islands.h - islands of bodies that touch each other, and which of them may fall asleep.
+ *
+ *     box 4 -- box 2 -- box 7      ground      box 3 -- box 5
+ *     label 2  label 2  label 2       -        label 3  label 3
+ *
+ * The label of an island is the lowest index of its bodies. Contacts join dynamic bodies alone, because whatever stands
+ * on one ground would otherwise be one island. Labels come from hooking and pointer jumping (Shiloach and Vishkin, "An
+ * O(log n) parallel connectivity algorithm", 1982), in rounds of two kernels:
+ *
+ *   hook_islands   each contact sets the next label of the higher of its two labels to the lower one, by a minimum
+ *   jump_islands   each body takes the next label of its next label
+ *
+ * Minima of integers do not depend on order, and each kernel reads what the other one wrote, so every round has the same
+ * bits on every backend. A round that changes nothing is the last; if there was none, the step runs again with more
+ * rounds.
+ *
+ * An island stays awake if one of its bodies is not drowsy or touches a kinematic body that moves.
+ */
+#ifndef TANDEM_SHARED_SLEEPING_ISLANDS_H
+#define TANDEM_SHARED_SLEEPING_ISLANDS_H
+
+#include "shared/sleeping/rest.h"
+
+SHARED void begin_islands_item(GLOBAL uint *island_label, GLOBAL uint *island_next, GLOBAL uint *island_awake, uint i)
+{
+  island_label[i] = island_next[i] = i;
+  island_awake[i] = 0u;
+}
+
+SHARED void hook_islands_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
+                              GLOBAL const uint *body_flags, GLOBAL const uint *island_label, GLOBAL uint *island_next,
+                              GLOBAL uint *counts, uint round, uint i)
+{
+  uint a = constraint_a[i], b = constraint_b[i];
+  if (!is_dynamic(body_flags, a) || !is_dynamic(body_flags, b)) return;
+  uint one = island_label[a], other = island_label[b];
+  if (one == other) return;
+  uint lower = one < other ? one : other, higher = one < other ? other : one;
+  ATOMIC_MIN(island_next + higher, lower);
+  ATOMIC_MAX(counts + COUNT_ISLAND_ROUNDS, round + 1u);
+}
+
+/* The next label of a body may be older than its label, and both are labels of its island; the lower one counts. */
+SHARED void jump_islands_item(GLOBAL const uint *island_next, GLOBAL uint *island_label, GLOBAL uint *counts, uint round,
+                              uint i)
+{
+  uint label = island_label[i], lowest = island_next[i] < label ? island_next[i] : label, next = island_next[lowest];
+  uint jumped = next < lowest ? next : lowest;
+  if (jumped == label) return;
+  island_label[i] = jumped;
+  ATOMIC_MAX(counts + COUNT_ISLAND_ROUNDS, round + 1u);
+}
+
+/* rounds: the number that the host launched. */
+SHARED void finish_islands_item(GLOBAL uint *counts, uint rounds, uint i)
+{
+  (void)i;
+  counts[COUNT_ISLANDS_OPEN] = counts[COUNT_ISLAND_ROUNDS] >= rounds ? 1u : 0u;
+}
+
+SHARED void keep_islands_awake_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_flags,
+                                    GLOBAL const uint *rest_count, GLOBAL const uint *island_label,
+                                    GLOBAL uint *island_awake, uint i)
+{
+  if (is_dynamic(body_flags, i) && rest_count[i] < parameters->sleep_steps)
+    ATOMIC_OR(island_awake + island_label[i], 1u);
+}
+
+SHARED uint is_moving_kinematic(GLOBAL const uint *body_flags, GLOBAL const float4 *velocity, uint body)
+{
+  spatial_velocity m = load_velocity(velocity, body);
+  return body_type_of(body_flags[body]) == (uint)BODY_TYPE_KINEMATIC &&
+                 (length_squared(m.linear) > R(0.0) || length_squared(m.angular) > R(0.0))
+             ? 1u
+             : 0u;
+}
+
+SHARED void keep_carried_awake_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
+                                    GLOBAL const uint *body_flags, GLOBAL const float4 *solver_velocity,
+                                    GLOBAL const uint *island_label, GLOBAL uint *island_awake, uint i)
+{
+  uint a = constraint_a[i], b = constraint_b[i];
+  if (is_moving_kinematic(body_flags, solver_velocity, a)) ATOMIC_OR(island_awake + island_label[b], 1u);
+  if (is_moving_kinematic(body_flags, solver_velocity, b)) ATOMIC_OR(island_awake + island_label[a], 1u);
+}
+
+SHARED void choose_sleepers_item(GLOBAL const uint *body_flags, GLOBAL const uint *island_label,
+                                 GLOBAL const uint *island_awake, GLOBAL uint *falls_asleep, GLOBAL uint *counts, uint i)
+{
+  uint falls = is_dynamic(body_flags, i) && !island_awake[island_label[i]] ? 1u : 0u;
+  falls_asleep[i] = falls;
+  if (falls) ATOMIC_ADD(counts + COUNT_FALLING_ASLEEP, 1u);
+}
+
+#endif

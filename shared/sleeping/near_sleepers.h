@@ -1,0 +1,181 @@
+/* near_sleepers.h - finds the sleeping bodies that those awake come near to, so that contact wakes them.
+ *
+ * The boxes of sleeping bodies do not move, so they are sorted once, by the cell of their centre, whenever the set of
+ * sleepers changes. A cell is as wide as the largest of them. Boxes that are large beside the others have a key behind
+ * all cells and are tested one by one.
+ *
+ *        +----+----+----+
+ *        |    | s  |    |     The box of A, grown by half a cell, meets the cells of all boxes that it can overlap:
+ *        +----+----+----+     a box reaches no further than half a cell from its centre.
+ *        |  [A]    |  s |
+ *        +----+----+----+
+ *
+ * Pairs found here pass through the narrowphase before the step's own pairs do; a pair with a contact wakes the island
+ * of the sleeper, and the step runs again with it (host/world/sleep.cpp). A near miss wakes nobody.
+ */
+#ifndef TANDEM_SHARED_SLEEPING_NEAR_SLEEPERS_H
+#define TANDEM_SHARED_SLEEPING_NEAR_SLEEPERS_H
+
+#include "shared/broadphase/neighbors.h"
+#include "shared/conversion.h"
+#include "shared/parallel/search.h"
+#include "shared/sleeping/islands.h"
+
+/* Coordinates of cells are taken modulo 2^CELL_BITS; cells that share a key cost time and change no result. */
+#define CELL_BITS 10u
+#define LARGE_SLEEPER (1u << (3u * CELL_BITS))
+/* More cells along an axis than this are not visited one by one. */
+#define MOST_CELLS 8
+
+SHARED real larger_half_extent(box_bounds box)
+{
+  vec3 size = subtract(box.upper, box.lower);
+  return R(0.5) * maximum(size.x, maximum(size.y, size.z));
+}
+
+/* The boxes larger than this have no cell. */
+SHARED mask is_large_sleeper(GLOBAL const Parameters *parameters, box_bounds box)
+{
+  return larger_half_extent(box) > R(2.0) * parameters->hybrid_cell;
+}
+
+/* Positive floats have the order of their bits. The factor exceeds what rounding to a float may take away. */
+SHARED void measure_sleepers_item(GLOBAL const Parameters *parameters, GLOBAL const float4 *bounds, GLOBAL uint *counts,
+                                  uint i)
+{
+  box_bounds box = load_bounds(bounds, i);
+  if (!is_large_sleeper(parameters, box))
+    ATOMIC_MAX(counts + COUNT_SLEEPER_REACH, FLOAT_BITS(R(1.000001) * larger_half_extent(box)));
+}
+
+SHARED real reach_of_sleepers(GLOBAL const uint *counts) { return BITS_FLOAT(counts[COUNT_SLEEPER_REACH]); }
+
+/* The reach is positive, because all bounds have a margin. */
+SHARED int cell_along(real x, real reach) { return floor_to_int(x / (R(2.0) * reach)); }
+
+SHARED uint key_of_cell(int x, int y, int z)
+{
+  uint most = (1u << CELL_BITS) - 1u;
+  return ((uint)x & most) | ((uint)y & most) << CELL_BITS | ((uint)z & most) << (2u * CELL_BITS);
+}
+
+SHARED void sleeper_keys_item(GLOBAL const Parameters *parameters, GLOBAL const float4 *bounds,
+                              GLOBAL const uint *counts, GLOBAL uint *sort_key, GLOBAL uint *sort_value, uint i)
+{
+  uint place = i - counts[COUNT_BODIES];
+  box_bounds box = load_bounds(bounds, i);
+  vec3 center = scale(add(box.lower, box.upper), R(0.5));
+  real reach = reach_of_sleepers(counts);
+  sort_key[place] = is_large_sleeper(parameters, box)
+                        ? LARGE_SLEEPER
+                        : key_of_cell(cell_along(center.x, reach), cell_along(center.y, reach), cell_along(center.z, reach));
+  sort_value[place] = i;
+}
+
+SHARED void keep_sleepers_item(GLOBAL const uint *sort_key, GLOBAL const uint *sort_value, GLOBAL const float4 *bounds,
+                               write_sleepers sleepers, uint i)
+{
+  uint body = sort_value[i];
+  sleepers.key[i] = sort_key[i];
+  sleepers.body[i] = body;
+  store_float4(sleepers.bounds, 2u * i, load_float4(bounds, 2u * body));
+  store_float4(sleepers.bounds, 2u * i + 1u, load_float4(bounds, 2u * body + 1u));
+}
+
+/* The sorted sleepers. */
+typedef struct {
+  read_sleepers table;
+  uint count;
+} sleeper_list;
+
+FORCE_INLINE uint find_among_sleepers(const pair_search *search, const sleeper_list *sleepers, uint first, uint end,
+                                      const find_list *list, uint at)
+{
+  for (uint k = first; k < end; ++k) {
+    uint other = sleepers->table.body[k];
+    if (bounds_overlap(search->box, load_bounds(sleepers->table.bounds, k)) && may_meet(search, other))
+      at = add_find(list, at, search->body, other);
+  }
+  return at;
+}
+
+/* A row of cells along x is not one range of keys, so each cell is searched by itself. */
+FORCE_INLINE uint find_in_cells(const pair_search *search, const sleeper_list *sleepers, const int low[3],
+                                const int high[3], const find_list *list, uint at)
+{
+  for (int z = low[2]; z <= high[2]; ++z)
+    for (int y = low[1]; y <= high[1]; ++y)
+      for (int x = low[0]; x <= high[0]; ++x) {
+        uint key = key_of_cell(x, y, z), first = lower_bound_of(sleepers->table.key, sleepers->count, key);
+        uint end = first;
+        while (end < sleepers->count && sleepers->table.key[end] == key) ++end;
+        at = find_among_sleepers(search, sleepers, first, end, list, at);
+      }
+  return at;
+}
+
+/* A body that covers many cells, as a moving half-space does, is tested against all. */
+FORCE_INLINE uint find_sleepers(const pair_search *search, const sleeper_list *sleepers, GLOBAL const uint *counts,
+                                const find_list *list, uint at)
+{
+  real reach = reach_of_sleepers(counts);
+  vec3 lower = search->box.lower, upper = search->box.upper;
+  int low[3] = {cell_along(lower.x - reach, reach), cell_along(lower.y - reach, reach),
+                cell_along(lower.z - reach, reach)};
+  int high[3] = {cell_along(upper.x + reach, reach), cell_along(upper.y + reach, reach),
+                 cell_along(upper.z + reach, reach)};
+  if (high[0] - low[0] > MOST_CELLS || high[1] - low[1] > MOST_CELLS || high[2] - low[2] > MOST_CELLS)
+    return find_among_sleepers(search, sleepers, 0u, sleepers->count, list, at);
+  at = find_in_cells(search, sleepers, low, high, list, at);
+  uint first = lower_bound_of(sleepers->table.key, sleepers->count, LARGE_SLEEPER);
+  return find_among_sleepers(search, sleepers, first, sleepers->count, list, at);
+}
+
+/* Fixed bodies wake nobody, and kinematic ones do while they move. */
+SHARED uint may_wake(GLOBAL const uint *body_flags, GLOBAL const float4 *body_velocity, uint body)
+{
+  return is_dynamic(body_flags, body) || is_moving_kinematic(body_flags, body_velocity, body) ? 1u : 0u;
+}
+
+SHARED void near_sleepers_count_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_flags,
+                                     GLOBAL const uint *body_filter, GLOBAL const float4 *bounds,
+                                     GLOBAL const float4 *body_velocity, read_sleepers table, GLOBAL const uint *counts,
+                                     GLOBAL uint *pair_start, uint i)
+{
+  sleeper_list sleepers = {table, counts[COUNT_SLEEPERS]};
+  find_list list = no_neighbors();
+  pair_search search = search_of_body(parameters, body_flags, body_filter, bounds, i);
+  pair_start[i] =
+      may_wake(body_flags, body_velocity, i) ? find_sleepers(&search, &sleepers, counts, &list, 0u) : 0u;
+}
+
+/* A sleeper has a higher index than any body that is awake, so it owns the pair. */
+SHARED void near_sleepers_write_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_flags,
+                                     GLOBAL const uint *body_filter, GLOBAL const float4 *bounds,
+                                     GLOBAL const float4 *body_velocity, read_sleepers table, GLOBAL const uint *counts,
+                                     GLOBAL const uint *pair_start, write_pairs pairs, uint i)
+{
+  if (!may_wake(body_flags, body_velocity, i)) return;
+  sleeper_list sleepers = {table, counts[COUNT_SLEEPERS]};
+  find_list list = finds_as_bodies(pairs.a, counts[CAPACITY_PAIRS]);
+  pair_search search = search_of_body(parameters, body_flags, body_filter, bounds, i);
+  uint end = find_sleepers(&search, &sleepers, counts, &list, pair_start[i]), capacity = counts[CAPACITY_PAIRS];
+  for (uint pair = pair_start[i]; pair < end && pair < capacity; ++pair) pairs.b[pair] = i;
+}
+
+/* Notes the sleepers that were touched, with the pairs needed, before the step's own pairs take the place of these. */
+SHARED void note_touched_sleepers_item(GLOBAL const uint *pair_a, GLOBAL const uint *manifold_count,
+                                       GLOBAL uint *touched_sleeper, GLOBAL uint *counts, uint i)
+{
+  uint touched = (manifold_count[i] & (TO_FOLLOW - 1u)) != 0u ? 1u : 0u;
+  touched_sleeper[i] = touched ? pair_a[i] : INDEX_NONE;
+  if (touched) ATOMIC_ADD(counts + COUNT_TOUCHED_SLEEPERS, 1u);
+}
+SHARED void keep_sleeper_counts_item(GLOBAL uint *counts, uint i)
+{
+  (void)i;
+  counts[COUNT_SLEEPER_PAIRS] = counts[COUNT_PAIRS];
+  counts[COUNT_SLEEPER_PAIRS_NEEDED] = counts[COUNT_PAIRS_NEEDED];
+}
+
+#endif

@@ -1,0 +1,96 @@
+/* Islands that fall asleep and wake: every kernel of every step has the same bits on every backend, and so do the rows
+ * that move between two steps. */
+#include "tests/parity/parity.h"
+
+using namespace tandem;
+using namespace tandem::parity;
+
+namespace {
+
+/* Heaps that fall asleep one after another, and what wakes some of them: balls, calls, and bodies that go. */
+void disturb(World &world, uint64_t step)
+{
+  const std::vector<BodyId> ids = world.body_ids();
+  if (step % 35 == 34) world.add_impulse(ids[1 + step % (ids.size() - 1)], {{0.5f, 3, 0}});
+  if (step % 60 == 50) {
+    Body ball;
+    ball.shape = 2;
+    ball.position = {0.02 * static_cast<double>(step % 300), 6, 0};
+    ball.linear_velocity = {0, -6, 0.1f};
+    world.create_body(ball);
+  }
+  if (step == 100) world.destroy_body(ids[4]);
+}
+
+Scene heaps()
+{
+  Scene scene;
+  scene.name = "heaps";
+  scene.shapes = {half_space_shape(), box_shape(0.5f, 0.5f, 0.5f), sphere_shape(0.3f),
+                  box_shape(0.2f, 0.6f, 0.3f)};
+  scene.bodies.resize(1);
+  scene.bodies[0].type = BodyType::fixed;
+  Random random(3);
+  for (int heap = 0; heap < 4; ++heap)
+    for (int k = 0; k < 3 + heap; ++k) {
+      Body body;
+      body.shape = 1 + static_cast<uint32_t>(random.uniform(0, 3));
+      body.position = {2.5 * heap + random.uniform(-0.1, 0.1), 0.7 + 1.1 * k, random.uniform(-0.1, 0.1)};
+      scene.bodies.push_back(body);
+    }
+  return scene;
+}
+
+ComparisonRequest request_on(std::vector<std::string> backends, uint64_t steps, Broadphase broadphase)
+{
+  ComparisonRequest request;
+  request.settings.sleeping = true;
+  request.settings.sleep_time = 0.2f;
+  request.settings.events = true;
+  request.settings.broadphase = broadphase;
+  request.backends = std::move(backends);
+  request.steps = steps;
+  request.before_step = disturb;
+  return request;
+}
+
+void require_equal(const ComparisonRequest &request)
+{
+  const Comparison comparison = compare_backends(heaps(), request);
+  if (comparison.first_difference) FAIL(describe(*comparison.first_difference));
+  CHECK(comparison.steps == request.steps);
+}
+
+} // namespace
+
+TEST_CASE("parity on CPU: islands that fall asleep and wake")
+{
+  require_equal(request_on(cpu_backends(), 300, Broadphase::grid));
+}
+
+TEST_CASE("parity on CPU: islands that sleep, with broadphases that keep lists", "[sanitizer]")
+{
+  for (const Broadphase broadphase : {Broadphase::bvh, Broadphase::trees, Broadphase::sap3})
+    require_equal(request_on({"serial", "tbb:threads=2,lanes=4"}, 150, broadphase));
+}
+
+TEST_CASE("parity on OpenCL: islands that fall asleep and wake")
+{
+  require_pocl();
+  require_equal(request_on({"tbb", "cl:pocl"}, 200, Broadphase::grid));
+}
+
+/* The scene must do what it is for. */
+TEST_CASE("the scene of the parity of sleep falls asleep and wakes", "[sanitizer]")
+{
+  const ComparisonRequest request = request_on({"serial"}, 300, Broadphase::grid);
+  World world(heaps(), request.settings, {"serial", {}});
+  uint32_t fell = 0, woke = 0;
+  for (uint64_t step = 0; step < request.steps; ++step) {
+    disturb(world, step);
+    world.step();
+    for (const SleepEvent &event : world.sleep_events()) event.asleep ? ++fell : ++woke;
+  }
+  CHECK(fell > 40);
+  CHECK(woke > 30);
+}
