@@ -43,6 +43,8 @@ public:
   const std::vector<Buffer> &written_by_modules() const { return written_; }
   void set_observer(Observer observer) { observer_ = std::move(observer); }
   void set_on_commit(std::function<void()> on_commit) { on_commit_ = std::move(on_commit); }
+  /* While some bodies sleep, launches leave their rows of STATE buffers as they are, wherever they are placed. */
+  void set_keeps_sleepers(bool on) { keeps_sleepers_ = on; }
   void set_step(uint64_t step) { step_ = step; } /* for debuggers: host/runtime/interface/debug.h */
 
 private:
@@ -51,7 +53,9 @@ private:
   Observer observer_;
   std::function<void()> on_commit_;
   uint64_t step_ = 0;
+  bool keeps_sleepers_ = false;
   void note_written(Buffer buffer);
+  Access access_of(Buffer buffer, Access access) const;
 
   std::vector<BoundArgument> bound_;
   std::vector<Buffer> written_;

@@ -60,6 +60,7 @@ void World::Implementation::run(Kernel kernel, const Values &values, const Slots
 {
   settle();
   buffers.make_ready(sizes());
+  count_awake_bodies();
   ++state;
   begin_launches();
   StepLaunches(launcher, plan, settings).run_of_module(kernel, values, slots, {});

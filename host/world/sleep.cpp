@@ -110,6 +110,7 @@ void World::Implementation::sleepers_changed()
   plan.known[COUNT_COMMIT_BODIES_PLUS_ONE] = special.awake + 1;
   plan.sleepers = !sleepers.empty();
   plan.other_sleepers = true;
+  launcher.set_keeps_sleepers(plan.sleepers);
   forget_kept(memory);
   ++state;
 }

@@ -94,6 +94,7 @@ void World::Implementation::undo(const Attempt &before) noexcept
   launches_ended = whole = false;
   statistics = before.statistics;
   for (size_t i = before.quarantined; i < quarantined.size(); ++i) slots.release(quarantined[i].body);
+  awake_dynamics += static_cast<uint32_t>(quarantined.size() - before.quarantined);
   quarantined.erase(quarantined.begin() + static_cast<ptrdiff_t>(before.quarantined), quarantined.end());
   const uint32_t capacity = plan.capacity_pairs;
   plan = before.plan;
