@@ -11,6 +11,7 @@
 
 #include "host/base/finite_vector.h"
 #include "host/runtime/interface/floating_point.h"
+#include "host/scene/parameters.h"
 #include "host/world/implementation.h"
 #include "shared/commands/command_codes.h"
 
@@ -230,6 +231,21 @@ void World::Implementation::add_forces(std::span<const BodyId> ids, std::span<co
   for (size_t i = 0; i < ids.size(); ++i)
     add_push(force_commands, called[i], {forces[i].force, forces[i].torque, forces[i].point}, COMMAND_ADD_FORCE,
              COMMAND_ADD_FORCE_AT);
+}
+
+void World::Implementation::set_gravity(const Vec3 &gravity)
+{
+  if (!is_finite_vector(gravity))
+    throw InputError(
+        fmt::format("set_gravity: gravity is {}; three finite numbers are needed", vector_text(gravity)));
+  settle();
+  wake_all();
+  Scene changed;
+  changed.gravity = gravity;
+  const Parameters parameters = parameters_of(changed, settings, special.features, special.median);
+  memory.upload(Buffer::parameters, &parameters, sizeof parameters);
+  scene.gravity = gravity;
+  ++state;
 }
 
 /* From the first force on, steps launch the stage of forces. */

@@ -132,6 +132,7 @@ struct World::Implementation {
   void wake_bodies(std::span<const uint32_t> of_slots, bool beside);
   void wake_touched();
   bool nothing_moves() const;
+  void set_gravity(const Vec3 &gravity);
   void note_motion(uint32_t slot, const Velocity &velocity);
 
   /* --- modules of users (host/runtime/interface/module.h): extensions.cpp -------------------------------------- */

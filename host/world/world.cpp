@@ -221,6 +221,12 @@ void World::read_bytes(Buffer buffer, void *to, size_t bytes)
   answer("a buffer", implementation_->slots.existing(), [&] { implementation_->memory.download(buffer, to, bytes); });
 }
 
+void World::set_gravity(const Vec3 &gravity)
+{
+  const minicl::ExactFloatingPoint environment;
+  answer("gravity", implementation_->slots.existing(), [&] { implementation_->set_gravity(gravity); });
+}
+
 bool World::is_asleep(const BodyId &id) const
 {
   return implementation_->sleepers.sleeps(implementation_->slots.slot_of("is_asleep", id));

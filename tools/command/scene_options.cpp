@@ -82,6 +82,7 @@ SceneOptions::SceneOptions(CLI::App &parser, bool one_backend)
   parser.add_flag("--check", check_,
                   "prove in every step that no batch touches a moving body twice and that every contact is in one; "
                   "exit status 1 if not");
+  parser.add_flag("--sleep", sleep_, "islands of bodies at rest fall asleep; what sleeps costs nothing");
   parser.add_flag("--no-specialise", no_specialise_,
                   "build and run every feature, needed or not: the same bits, slower");
   parser.add_flag("--allow-outside-files", outside_files_,
@@ -112,6 +113,7 @@ Settings SceneOptions::settings() const
   settings.max_pairs = static_cast<uint32_t>(whole_number("--max-pairs", max_pairs_, 1, most_pairs));
   settings.check = check_;
   settings.events = events_;
+  settings.sleeping = sleep_;
   settings.specialise = !no_specialise_;
   validate(settings);
   return settings;
@@ -163,6 +165,7 @@ std::string SceneOptions::typed_again(const std::string &broadphase) const
   if (outside_files_) text += " --allow-outside-files";
   if (check_) text += " --check";
   if (events_) text += " --events events.json";
+  if (sleep_) text += " --sleep";
   if (no_specialise_) text += " --no-specialise";
   return text;
 }

@@ -148,6 +148,8 @@ Json outcome_json(const Outcome &outcome, World &world, const Placement &placeme
             {"stalled", statistics.direct_stalled}}},
           {"nonfinite", statistics.nonfinite},
           {"overflow", statistics.overflow},
+          {"asleep", statistics.asleep},
+          {"islands", statistics.sleeping_islands},
           {"memory_bytes", world.memory().total_bytes()},
           {"kernels_built", world.kernels().size()},
           {"build_ms", world.build_milliseconds()},

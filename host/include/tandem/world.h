@@ -156,6 +156,9 @@ public:
   /* Who fell asleep in the last step, and who woke in it or between it and the step before. */
   const std::vector<SleepEvent> &sleep_events() const;
 
+  /* m/s^2, from the next step on; wakes all bodies. InputError unless finite. */
+  void set_gravity(const Vec3 &gravity);
+
   /* The events of the last step, sorted by (a, b); there are none before the first step. A step that ran again with
    * larger buffers reports them once. Throws InputError without Settings::events. */
   std::vector<ContactEvent> contact_events();

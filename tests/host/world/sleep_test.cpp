@@ -1,5 +1,6 @@
 /* Islands that fall asleep and wake: who does, when, and that what sleeps neither moves nor costs anything. */
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -248,6 +249,19 @@ TEST_CASE("a kinematic platform wakes what it carries when it starts to move, an
   world.set_state(world.id_of(3), {{20, 1.5, 0}, {0, 0, 0, 1}, {0, 0, 0}, {0, 0, 0}}); /* taken away from below it */
   for (int k = 0; k < 90; ++k) world.step();
   CHECK(world.bodies()[1].position[1] == Approx(0.5).margin(0.02));
+}
+
+TEST_CASE("a change of gravity wakes all, and bodies fall as it says", "[sanitizer]")
+{
+  World world(floor_with_boxes(columns(2)), sleepy(), {"serial", {}});
+  wait_for_sleep(world, 6);
+  world.set_gravity({0, 2, 0});
+  CHECK(world.statistics().asleep == 0);
+  const double start = world.bodies()[3].position[1];
+  for (int k = 0; k < 60; ++k) world.step();
+  CHECK(world.bodies()[3].position[1] - start == Approx(1).epsilon(1e-3)); /* half of 2 m/s^2, for a second */
+  const float infinite = std::numeric_limits<float>::infinity();
+  CHECK_THROWS_WITH(world.set_gravity({0, infinite, 0}), ContainsSubstring("set_gravity: gravity is"));
 }
 
 /* Contacts are remembered while a stack sleeps, so that it wakes as it was. */

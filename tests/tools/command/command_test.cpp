@@ -185,6 +185,7 @@ TEST_CASE("command: run writes what its contract says", "[command]")
   check_keys(run, {"scene",    "backend",         "solver",           "bodies",         "steps",
                    "dt",       "step_ms",         "stages",           "pairs",          "contacts",
                    "colors",   "max_penetration", "mean_penetration", "kinetic_energy", "nonfinite",
+                   "asleep",   "islands",
                    "overflow", "memory_bytes",    "kernels_built",    "build_ms",       "hash",
                    "body_hash"});
   check_keys(run["step_ms"], {"median", "min", "max"});
