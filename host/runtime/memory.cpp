@@ -189,7 +189,8 @@ void Memory::upload(Buffer buffer, const void *from, size_t bytes, size_t offset
   }
   device->storage->write(device->handle, offset, from, bytes);
   for (Copy &copy : entry.copies)
-    if (copy.storage == &host_storage() && copy.valid) std::memcpy(static_cast<char *>(copy.handle) + offset, from, bytes);
+    if (copy.storage == &host_storage() && copy.valid)
+      std::memcpy(static_cast<char *>(copy.handle) + offset, from, bytes);
     else copy.valid = &copy == device;
 }
 

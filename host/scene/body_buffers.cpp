@@ -187,7 +187,7 @@ void stage_masses(StagedUploads &uploads, const Scene &scene, const std::vector<
 }
 
 void stage_shapes(StagedUploads &uploads, const Scene &scene, const std::vector<uint32_t> &order, uint32_t first_child,
-                   const std::vector<BodyStatus> &status)
+                  const std::vector<BodyStatus> &status)
 {
   const HullNumbers hulls = hull_numbers(scene);
   ShapeRows bodies(scene, hulls), children(scene, hulls);
@@ -203,8 +203,8 @@ void stage_shapes(StagedUploads &uploads, const Scene &scene, const std::vector<
   bodies.stage(uploads, 0);
 }
 
-void stage_new_bodies(StagedUploads &uploads, const Scene &scene, const HullNumbers &hulls, std::span<const uint32_t> bodies,
-                       uint32_t first)
+void stage_new_bodies(StagedUploads &uploads, const Scene &scene, const HullNumbers &hulls,
+                      std::span<const uint32_t> bodies, uint32_t first)
 {
   MassRows masses;
   StateRows states;
@@ -319,8 +319,7 @@ std::vector<BodyState> download_bodies(Memory &memory, const std::vector<uint32_
              orientation = memory.read<float4>(Buffer::body_orientation, n);
   const auto velocity = memory.read<float4>(Buffer::body_velocity, 2 * n);
   std::vector<BodyState> states(n);
-  for (size_t i = 0; i < n; ++i)
-    states[order[i]] = state_of(&position[2 * i], orientation[i], &velocity[2 * i]);
+  for (size_t i = 0; i < n; ++i) states[order[i]] = state_of(&position[2 * i], orientation[i], &velocity[2 * i]);
   return states;
 }
 

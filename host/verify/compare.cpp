@@ -96,6 +96,7 @@ template <class Visit> void Lockstep::step(size_t index, World &world, uint64_t 
     if (request_.inject_fault) request_.inject_fault(index, step, world, launch);
     visit(launch, number++);
   });
+  if (request_.before_step) request_.before_step(world, step);
   world.step();
   world.set_observer(nullptr);
 }

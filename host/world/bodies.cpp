@@ -110,8 +110,7 @@ void stage_carried_rows(StagedUploads &uploads, Memory &memory, const StepBuffer
   for (const CarriedBuffer &carried : buffers.carried()) stage_reordered(uploads, memory, rows, carried.now);
   for (size_t i = buffer_count; i < buffers.needs().touched.size(); ++i) {
     const Lifetime lifetime = row_of(buffer_at(i)).lifetime;
-    if (lifetime == Lifetime::SCENE || lifetime == Lifetime::KEPT)
-      stage_reordered(uploads, memory, rows, buffer_at(i));
+    if (lifetime == Lifetime::SCENE || lifetime == Lifetime::KEPT) stage_reordered(uploads, memory, rows, buffer_at(i));
   }
   const auto pairs = memory.read<uint32_t>(Buffer::cached_start, 1, old_order.size()).front();
   uploads.add(Buffer::cached_b, rows.indices_of(memory, Buffer::cached_b, pairs));
@@ -267,9 +266,9 @@ void World::Implementation::place_among_others(const Arrival &arrival)
   });
   const uint32_t pairs = memory.read<uint32_t>(Buffer::cached_start, 1, bodies()).front();
   uploads.add(Buffer::cached_start, std::vector<uint32_t>(appended.size(), pairs), bodies() + size_t{1});
-  const auto entries = entries_of({bodies() + static_cast<uint32_t>(appended.size()), special.unbounded, special.large});
-  for (const auto &[entry, value] : entries)
-    uploads.add_count(static_cast<uint32_t>(entry), value);
+  const auto entries =
+      entries_of({bodies() + static_cast<uint32_t>(appended.size()), special.unbounded, special.large});
+  for (const auto &[entry, value] : entries) uploads.add_count(static_cast<uint32_t>(entry), value);
   uploads.prepare(memory);
   scene_entries = entries;
 
@@ -304,8 +303,7 @@ std::vector<uint32_t> order_with(const Specialisation &special, const std::array
 std::vector<float4> normals_of_pairs(Memory &memory, uint32_t bodies)
 {
   if (memory.bytes(Buffer::cached_normal) > 0) return {};
-  return memory.read<float4>(Buffer::manifold_normal,
-                             memory.read<uint32_t>(Buffer::cached_start, 1, bodies).front());
+  return memory.read<float4>(Buffer::manifold_normal, memory.read<uint32_t>(Buffer::cached_start, 1, bodies).front());
 }
 
 } // namespace
@@ -376,8 +374,7 @@ std::vector<uint32_t> World::Implementation::distinct_indices(const char *call, 
   std::vector<uint32_t> indices = indices_of(call, ids);
   std::sort(indices.begin(), indices.end());
   const auto twice = std::adjacent_find(indices.begin(), indices.end());
-  if (twice != indices.end())
-    throw InputError(fmt::format("{}: body {} is given twice", call, special.order[*twice]));
+  if (twice != indices.end()) throw InputError(fmt::format("{}: body {} is given twice", call, special.order[*twice]));
   return indices;
 }
 

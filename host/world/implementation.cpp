@@ -33,7 +33,8 @@ World::Implementation::Implementation(const Scene &given, const Settings &chosen
     : scene(given), settings(resolved(chosen, given, placement)), special(specialise(given, chosen)),
       hulls(hull_sizes(given, cube_map_cells(chosen))), trees(tree_tables(given)), scene_features(special.features),
       backends(placement, chosen.specialise ? special.features : all_features()), buffers(memory, backends),
-      slots(static_cast<uint32_t>(given.bodies.size())), launcher(memory, [this](Kernel kernel) -> Backend & { return backends.of(kernel); })
+      slots(static_cast<uint32_t>(given.bodies.size())),
+      launcher(memory, [this](Kernel kernel) -> Backend & { return backends.of(kernel); })
 {
   launcher.set_on_commit([this] { turn(); });
   plan.forces = module_applies_forces();
@@ -128,8 +129,7 @@ void World::Implementation::stage_tables(StagedUploads &uploads)
 /* The counts that kernels never change. */
 void World::Implementation::stage_counts(StagedUploads &uploads) const
 {
-  for (const auto &[entry, value] : scene_entries)
-    uploads.add_count(static_cast<uint32_t>(entry), value);
+  for (const auto &[entry, value] : scene_entries) uploads.add_count(static_cast<uint32_t>(entry), value);
   uploads.add_count(CAPACITY_PAIRS, plan.capacity_pairs);
   uploads.add_count(CAPACITY_CELLS, plan.capacity_cells);
 }

@@ -126,6 +126,16 @@ bool World::exists(const BodyId &id) const
   return implementation_->slots.exists(id.index) && implementation_->slots.id_of(id.index) == id;
 }
 
+std::vector<BodyId> World::body_ids() const
+{
+  const BodySlots &slots = implementation_->slots;
+  std::vector<BodyId> ids;
+  ids.reserve(slots.existing());
+  for (uint32_t slot = 0; slot < slots.count(); ++slot)
+    if (slots.exists(slot)) ids.push_back(slots.id_of(slot));
+  return ids;
+}
+
 uint32_t World::body_count() const { return implementation_->slots.existing(); }
 
 std::vector<BodyId> World::create_bodies(std::span<const Body> bodies)

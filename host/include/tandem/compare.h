@@ -43,6 +43,9 @@ struct ComparisonRequest {
   std::vector<std::string> backends{}; /* two or more; the first is the reference */
   uint64_t steps = 1;
   FaultInjector inject_fault{};                                 /* optional */
+  /* Optional: what a program does with each of the worlds before a step. It must do the same to equal worlds, because
+   * worlds are stepped in turn, and again from the start where they differ. */
+  std::function<void(World &world, uint64_t step)> before_step{};
   std::function<void(uint64_t done)> after_step{}; /* optional: progress */
 };
 

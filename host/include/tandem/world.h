@@ -110,6 +110,7 @@ public:
   /* Handle of the body with this index, which Scene::bodies, events and hits of queries use. */
   BodyId id_of(uint32_t body) const;
   bool exists(const BodyId &id) const;
+  std::vector<BodyId> body_ids() const; /* of all bodies that exist, in the order of their indices */
   uint32_t body_count() const; /* of the bodies that exist */
 
   /* Adds bodies of the shapes and materials of scene(), as they are in it now. What they need is checked as validate()
