@@ -24,6 +24,7 @@
 #include "host/runtime/interface/floating_point.h"
 #include "host/runtime/interface/module.h"
 #include "host/world/implementation.h"
+#include "host/world/placed_bodies.h"
 #include "host/world/reordered_rows.h"
 
 namespace tandem {
@@ -56,41 +57,6 @@ template <class Work> void for_each_run(std::span<const uint32_t> sorted, const 
     at = end;
   }
 }
-
-/* Puts bodies into a scene, and takes them out again unless they are kept. */
-class AddedBodies {
-public:
-  AddedBodies(Scene &scene, std::span<const uint32_t> slots, std::span<const Body> bodies)
-      : scene_(scene), count_(scene.bodies.size())
-  {
-    replaced_.reserve(bodies.size());
-    scene.bodies.reserve(count_ + bodies.size());
-    for (size_t i = 0; i < bodies.size(); ++i) put(slots[i], bodies[i]);
-  }
-  ~AddedBodies()
-  {
-    if (kept_) return;
-    for (auto one = replaced_.rbegin(); one != replaced_.rend(); ++one)
-      std::swap(scene_.bodies[one->first], one->second);
-    scene_.bodies.resize(count_);
-  }
-  AddedBodies(const AddedBodies &) = delete;
-  AddedBodies &operator=(const AddedBodies &) = delete;
-  void keep() noexcept { kept_ = true; }
-
-private:
-  void put(uint32_t slot, Body body)
-  {
-    if (slot >= scene_.bodies.size()) return scene_.bodies.push_back(std::move(body));
-    replaced_.emplace_back(slot, std::move(body));
-    std::swap(scene_.bodies[slot], replaced_.back().second);
-  }
-
-  Scene &scene_;
-  size_t count_;
-  std::vector<std::pair<uint32_t, Body>> replaced_;
-  bool kept_ = false;
-};
 
 bool has_tree(const Shape &shape) { return shape.mesh || shape.compound; }
 
@@ -207,18 +173,37 @@ World::Implementation::Arrival World::Implementation::arrival_of(std::span<const
   return arrival;
 }
 
+/* The kinds of all bodies that exist, and of those in these slots. */
+void World::Implementation::note_kinds(std::span<const uint32_t> slots_of_bodies)
+{
+  known_kinds.clear();
+  for (uint32_t slot = 0; slot < slots.count(); ++slot)
+    if (slots.exists(slot)) known_kinds.insert(kind_of(scene, scene.bodies[slot]));
+  for (const uint32_t slot : slots_of_bodies) known_kinds.insert(kind_of(scene, scene.bodies[slot]));
+}
+
+/* True if bodies, which stand in the scene already, bring a feature or a material that the tables lack. Features follow
+ * from kinds that are in the scene together, so a new kind makes the list of known ones anew. */
+bool World::Implementation::brings_features(std::span<const uint32_t> slots_of_bodies)
+{
+  const auto is_known = [&](uint32_t slot) { return known_kinds.contains(kind_of(scene, scene.bodies[slot])); };
+  const auto has_new_material = [&](uint32_t slot) { return scene.bodies[slot].material >= uploaded_materials; };
+  bool brings = std::any_of(slots_of_bodies.begin(), slots_of_bodies.end(), has_new_material);
+  if (!std::all_of(slots_of_bodies.begin(), slots_of_bodies.end(), is_known)) {
+    note_kinds(slots_of_bodies);
+    brings = brings || (features_of(scene, settings) & ~scene_features) != 0;
+  }
+  return brings;
+}
+
 /* True if more than the rows of the bodies themselves must change. The bodies stand in the scene already. */
 bool World::Implementation::brings_tables(const Arrival &arrival)
 {
-  if (known_kinds.empty())
-    for (uint32_t slot = 0; slot < slots.count(); ++slot)
-      if (slots.exists(slot)) known_kinds.insert(kind_of(scene, scene.bodies[slot]));
-  bool brings = arrival.inserts() || bodies() + arrival.new_slots() > plan.bodies;
+  bool brings = brings_features(arrival.slots);
+  brings = brings || arrival.inserts() || bodies() + arrival.new_slots() > plan.bodies;
   for (const uint32_t slot : arrival.slots) {
     const Body &body = scene.bodies[slot];
-    const bool is_new = known_kinds.insert(kind_of(scene, body)).second;
-    brings = brings || is_new || body.shape >= uploaded_shapes || body.material >= uploaded_materials ||
-             has_tree(scene.shapes[body.shape]);
+    brings = brings || body.shape >= uploaded_shapes || has_tree(scene.shapes[body.shape]);
   }
   return brings;
 }
@@ -234,7 +219,7 @@ std::vector<BodyId> World::Implementation::create(std::span<const Body> given)
   slots.prepare_growth(arrival.new_slots());
   index_of_body.reserve(slots.count() + arrival.new_slots());
   special.order.reserve(bodies() + arrival.new_slots());
-  AddedBodies added(scene, arrival.slots, given);
+  PlacedBodies added(scene, arrival.slots, given);
   try {
     if (brings_tables(arrival)) lay_out_anew(arrival);
     else place_among_others(arrival);
@@ -267,9 +252,9 @@ void World::Implementation::place_among_others(const Arrival &arrival)
   });
   const uint32_t pairs = memory.read<uint32_t>(Buffer::cached_start, 1, bodies()).front();
   uploads.add(Buffer::cached_start, std::vector<uint32_t>(appended.size(), pairs), bodies() + size_t{1});
-  const auto entries = entries_of({bodies() + static_cast<uint32_t>(appended.size()), special.unbounded, special.large});
-  for (const auto &[entry, value] : entries)
-    uploads.add_count(static_cast<uint32_t>(entry), value);
+  const auto entries =
+      entries_of({bodies() + static_cast<uint32_t>(appended.size()), special.unbounded, special.large});
+  for (const auto &[entry, value] : entries) uploads.add_count(static_cast<uint32_t>(entry), value);
   uploads.prepare(memory);
   scene_entries = entries;
 
@@ -369,6 +354,14 @@ void World::Implementation::lay_out_anew(const Arrival &arrival)
   uploads.write(memory);
   guess_counts();
   forget_kept(memory);
+}
+
+/* The same bodies with other features. */
+void World::Implementation::lay_out_anew()
+{
+  Arrival nobody;
+  nobody.median = special.median;
+  lay_out_anew(nobody);
 }
 
 std::vector<uint32_t> World::Implementation::distinct_indices(const char *call, std::span<const BodyId> ids) const

@@ -35,7 +35,7 @@ CommandList::Rows rows_at_point(const Vec3 &vector, const Point &point)
   return {row_of_vector(vector), high, low};
 }
 
-[[noreturn]] void refuse(const char *call, size_t index, const std::string &why)
+[[noreturn]] void refuse_entry(const char *call, size_t index, const std::string &why)
 {
   throw InputError(fmt::format("{}: entry {}: {}", call, index, why));
 }
@@ -43,7 +43,7 @@ CommandList::Rows rows_at_point(const Vec3 &vector, const Point &point)
 template <class Vector> void check_vector(const char *call, size_t index, const char *what, const Vector &v)
 {
   if (!is_finite_vector(v))
-    refuse(call, index, fmt::format("{} is {}; three finite numbers are needed", what, vector_text(v)));
+    refuse_entry(call, index, fmt::format("{} is {}; three finite numbers are needed", what, vector_text(v)));
 }
 
 void check_rotation(const char *call, size_t index, const Quat &q)
@@ -51,7 +51,7 @@ void check_rotation(const char *call, size_t index, const Quat &q)
   double square = 0;
   for (const float x : q) square += double{x} * x;
   if (!(std::abs(square - 1) < 2e-3))
-    refuse(call, index,
+    refuse_entry(call, index,
            fmt::format("orientation is [{}, {}, {}, {}]; a quaternion of length 1 is needed", q[0], q[1], q[2], q[3]));
 }
 
@@ -175,7 +175,8 @@ void World::Implementation::move_to(std::span<const BodyId> ids, std::span<const
   check_entries("move_to", ids.size(), poses);
   for (size_t i = 0; i < ids.size(); ++i)
     if (scene.bodies[ids[i].index].type != BodyType::kinematic)
-      refuse("move_to", i, fmt::format("body {} is not kinematic; set_states puts other bodies elsewhere", ids[i].index));
+      refuse_entry("move_to", i,
+                   fmt::format("body {} is not kinematic; set_states puts other bodies elsewhere", ids[i].index));
   commands.prepare(ids.size());
   for (size_t i = 0; i < ids.size(); ++i) commands.add(indices[i], COMMAND_MOVE_TO, rows_of_pose(poses[i]));
 }

@@ -1,8 +1,8 @@
 /* implementation.h - the contents of a world and the phases of a step, behind the interface of <tandem/world.h>.
  *
  * Members are declared in the order of their dependencies: backends outlive the memory that lies in their storage. The
- * functions are grouped by concern: making a world in implementation.cpp, steps in step_attempts.cpp, users' modules in
- * extensions.cpp.
+ * functions are grouped by concern: making a world in implementation.cpp, steps in step_attempts.cpp, calls to bodies
+ * in calls.cpp and properties.cpp, bodies that come and go in bodies.cpp, users' modules in extensions.cpp.
  */
 #pragma once
 
@@ -86,6 +86,10 @@ struct World::Implementation {
   void add_forces(std::span<const BodyId> ids, std::span<const Force> forces);
   void use_forces();
 
+  /* --- properties that change: properties.cpp -------------------------------------------------------------------- */
+  void set_properties(std::span<const BodyId> ids, std::span<const BodyProperties> properties);
+  void write_properties(std::span<const uint32_t> slots);
+
   /* --- bodies that come and go: bodies.cpp ----------------------------------------------------------------------- */
   struct Arrival;
   class LayoutBackup;
@@ -103,8 +107,11 @@ struct World::Implementation {
   void check_new(std::span<const Body> bodies) const;
   Arrival arrival_of(std::span<const Body> bodies) const;
   bool brings_tables(const Arrival &arrival);
+  bool brings_features(std::span<const uint32_t> slots);
+  void note_kinds(std::span<const uint32_t> slots);
   void place_among_others(const Arrival &arrival);
   void lay_out_anew(const Arrival &arrival);
+  void lay_out_anew();
   void plan_layout(const Arrival &arrival, std::vector<uint32_t> order);
   void stage_arrival(StagedUploads &uploads, const Arrival &arrival) const;
 
@@ -138,7 +145,9 @@ struct World::Implementation {
   std::vector<uint32_t> index_of_body; /* by slot; for a free one, that of its last body */
   std::vector<uint32_t> order_of_events; /* the order that the last step had, if it has changed since; else empty */
   size_t uploaded_shapes = 0, uploaded_materials = 0; /* of the scene, that the tables hold */
-  std::set<BodyKind> known_kinds;                     /* of bodies; filled by the first call that creates some */
+  /* Kinds of bodies that were in the scene together when its features were last derived; filled by the first call that
+   * creates or changes some. */
+  std::set<BodyKind> known_kinds;
   CommandList commands, force_commands;               /* not applied yet */
   std::vector<Quarantine> quarantined;
   std::optional<BatchFault> fault;

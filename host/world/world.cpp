@@ -149,6 +149,18 @@ uint32_t World::add_material(const Material &material)
                 [&] { return implementation_->add_material(material); });
 }
 
+void World::set_properties(std::span<const BodyId> ids, std::span<const BodyProperties> properties)
+{
+  const minicl::ExactFloatingPoint environment;
+  answer("properties of bodies", implementation_->slots.existing(),
+         [&] { implementation_->set_properties(ids, properties); });
+}
+
+Body World::body_description(const BodyId &id) const
+{
+  return implementation_->scene.bodies[implementation_->slots.slot_of("body_description", id)];
+}
+
 std::vector<BodyState> World::read_bodies(std::span<const BodyId> ids)
 {
   return answer("the bodies", implementation_->slots.existing(), [&] { return implementation_->read(ids); });

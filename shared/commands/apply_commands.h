@@ -61,6 +61,16 @@ SHARED void store_linear_and_angular(GLOBAL float4 *body_velocity, uint body, ve
   store_float4(body_velocity, body * 2u + 1u, extend(angular, load_float4(body_velocity, body * 2u + 1u).w));
 }
 
+/* Sets the fourth numbers, which follow from the properties of the body. */
+SHARED void set_mass(GLOBAL float4 *body_velocity, uint body, vec3 values)
+{
+  spatial_velocity m = load_velocity(body_velocity, body);
+  vec3 zero = make_vec3(R(0.0), R(0.0), R(0.0));
+  mask keeps = values.z > R(0.0);
+  store_float4(body_velocity, body * 2u, extend(choose3(keeps, m.linear, zero), values.x));
+  store_float4(body_velocity, body * 2u + 1u, extend(choose3(keeps, m.angular, zero), values.y));
+}
+
 /* The velocity with which the body reaches a pose at the end of the step. */
 SHARED void move_to(GLOBAL const Parameters *parameters, GLOBAL const float4 *command_value, uint command,
                     GLOBAL const float4 *body_position, GLOBAL const float4 *body_orientation,
@@ -102,6 +112,7 @@ SHARED void apply_commands_item(GLOBAL const Parameters *parameters, GLOBAL cons
     int stands = body_type_of(body_flags[body]) == (uint)BODY_TYPE_FIXED;
     vec3 first = command_row(commands.value, k, 0u), second = command_row(commands.value, k, 1u);
     if (kind == (uint)COMMAND_SET_POSE) set_pose(commands.value, k, body_position, body_orientation, body);
+    else if (kind == (uint)COMMAND_SET_MASS) set_mass(body_velocity, body, first);
     else if (stands) continue;
     else if (kind == (uint)COMMAND_SET_VELOCITY) store_linear_and_angular(body_velocity, body, first, second);
     else if (kind == (uint)COMMAND_MOVE_TO)

@@ -123,6 +123,36 @@ public:
   uint32_t add_shape(const Shape &shape);
   uint32_t add_material(const Material &material);
 
+  /* Changes properties of bodies, in the order of the entries, after all calls so far. scene() then has the new values.
+   * The message of an InputError names the body. The first filter, trigger, damping, continuous body and so on of a
+   * world brings in new kernels and buffers, which takes longer than later changes. A body that becomes continuous
+   * stays among the small ones in the grid, whose cells must then hold its way through a step. */
+  void set_properties(std::span<const BodyId> ids, std::span<const BodyProperties> properties);
+  void set_properties(const BodyId &id, const BodyProperties &properties)
+  {
+    set_properties(std::span(&id, 1), std::span(&properties, 1));
+  }
+  void set_type(const BodyId &id, BodyType type) { set_properties(id, {.type = type}); }
+  void set_trigger(const BodyId &id, bool trigger) { set_properties(id, {.trigger = trigger}); }
+  void set_continuous(const BodyId &id, bool continuous) { set_properties(id, {.continuous = continuous}); }
+  void set_material(const BodyId &id, uint32_t material) { set_properties(id, {.material = material}); }
+  void set_mass(const BodyId &id, float mass) { set_properties(id, {.mass = mass}); }
+  void set_mass(const BodyId &id, float mass, const Vec3 &inertia)
+  {
+    set_properties(id, {.mass = mass, .inertia = inertia});
+  }
+  void set_gravity_factor(const BodyId &id, float factor) { set_properties(id, {.gravity_factor = factor}); }
+  void set_damping(const BodyId &id, float linear, float angular)
+  {
+    set_properties(id, {.linear_damping = linear, .angular_damping = angular});
+  }
+  void set_filter(const BodyId &id, uint32_t group, uint32_t mask)
+  {
+    set_properties(id, {.filter_group = group, .filter_mask = mask});
+  }
+  /* The body as it is in scene(): with its present properties, and the pose and velocity that it was created with. */
+  Body body_description(const BodyId &id) const;
+
   std::vector<BodyState> read_bodies(std::span<const BodyId> ids);
   BodyState read_body(const BodyId &id) { return read_bodies(std::span(&id, 1)).front(); }
   void set_states(std::span<const BodyId> ids, std::span<const BodyState> states);
