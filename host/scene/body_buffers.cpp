@@ -163,11 +163,21 @@ namespace {
 
 struct MassRows {
   std::vector<float4> mass;
+  std::vector<uint32_t> locks;
+  std::vector<float> speeds;
 
   void add(const Scene &scene, const Body &body)
   {
     mass.push_back(float4_of_vec(inverse_inertia_of(scene, body), body.gravity_factor));
     mass.push_back({body.linear_damping, body.angular_damping, 0, 0});
+    locks.push_back(locks_of(body));
+    speeds.insert(speeds.end(), {body.max_linear_speed, body.max_angular_speed});
+  }
+  void stage(StagedUploads &uploads, size_t first)
+  {
+    uploads.add(Buffer::body_mass, std::move(mass), first);
+    uploads.add(Buffer::body_lock, std::move(locks), first);
+    uploads.add(Buffer::body_max_speed, std::move(speeds), first);
   }
 };
 
@@ -205,7 +215,7 @@ void stage_masses(StagedUploads &uploads, const Scene &scene, const std::vector<
 {
   MassRows rows;
   for (const uint32_t body : order) rows.add(scene, scene.bodies[body]);
-  uploads.add(Buffer::body_mass, std::move(rows.mass));
+  rows.stage(uploads, 0);
 }
 
 void stage_shapes(StagedUploads &uploads, const Scene &scene, const std::vector<uint32_t> &order, uint32_t first_child,
@@ -237,7 +247,7 @@ void stage_new_bodies(StagedUploads &uploads, const Scene &scene, const HullNumb
     states.add(body);
     shapes.add(shape_of_body(scene, body), BodyStatus::present);
   }
-  uploads.add(Buffer::body_mass, std::move(masses.mass), first);
+  masses.stage(uploads, first);
   uploads.add(Buffer::body_force, std::vector<float4>(2 * bodies.size()), first);
   uploads.add(Buffer::body_tree, std::vector<uint32_t>(2 * bodies.size(), INDEX_NONE), first);
   states.stage(uploads, first);
@@ -253,7 +263,7 @@ void stage_properties(StagedUploads &uploads, const Scene &scene, std::span<cons
     masses.add(scene, scene.bodies[index]);
     properties.add(shape_of_body(scene, scene.bodies[index]), status_of(status, index));
   }
-  uploads.add(Buffer::body_mass, std::move(masses.mass), first);
+  masses.stage(uploads, first);
   properties.stage(uploads, first);
 }
 

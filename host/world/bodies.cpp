@@ -136,7 +136,10 @@ void World::Implementation::check_new(std::span<const Body> given) const
   if (given.size() + slots.count() >= body_numbers)
     throw InputError(fmt::format("create_bodies: {} bodies and {} more; kernels can number {}", slots.count(),
                                  given.size(), body_numbers - 1));
-  for (size_t i = 0; i < given.size(); ++i) validate(scene, given[i], i, "create_bodies");
+  for (size_t i = 0; i < given.size(); ++i) {
+    validate(scene, given[i], i, "create_bodies");
+    check_solver(settings, given[i], i, "create_bodies");
+  }
 }
 
 /* New slots are numbered in the order of the call. */

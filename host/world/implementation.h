@@ -36,6 +36,9 @@ constexpr uint32_t body_numbers = 1u << 28;
 /* The first capacity of pairs; a step that finds more runs again. */
 uint32_t first_capacity(const Scene &scene, const Settings &settings);
 
+/* Throws InputError if the body has locked axes and the solver holds none. */
+void check_solver(const Settings &settings, const Body &body, size_t index, const std::string &where);
+
 struct World::Implementation {
   Implementation(const Scene &given, const Settings &chosen, const Placement &placement);
   ~Implementation(); /* waits, because running kernels still read buffers */

@@ -42,6 +42,11 @@ void change(Body &body, const BodyProperties &properties)
   take(properties.angular_damping, body.angular_damping);
   take(properties.filter_group, body.filter_group);
   take(properties.filter_mask, body.filter_mask);
+  take(properties.linear_locks, body.linear_locks);
+  take(properties.angular_locks, body.angular_locks);
+  take(properties.max_linear_speed, body.max_linear_speed);
+  take(properties.max_angular_speed, body.max_angular_speed);
+  take(properties.user_data, body.user_data);
 }
 
 struct ChangedBodies {
@@ -50,7 +55,7 @@ struct ChangedBodies {
 };
 
 /* Several entries for one body are taken in their order. */
-ChangedBodies changed_by(const Scene &scene, std::span<const uint32_t> slots,
+ChangedBodies changed_by(const Scene &scene, const Settings &settings, std::span<const uint32_t> slots,
                          std::span<const BodyProperties> properties)
 {
   std::map<uint32_t, Body> changed;
@@ -58,6 +63,7 @@ ChangedBodies changed_by(const Scene &scene, std::span<const uint32_t> slots,
     Body &body = changed.try_emplace(slots[i], scene.bodies[slots[i]]).first->second;
     change(body, properties[i]);
     validate(scene, body, slots[i], "set_properties");
+    check_solver(settings, body, slots[i], "set_properties");
   }
   ChangedBodies result;
   for (auto &[slot, body] : changed) {
@@ -90,7 +96,9 @@ BodyProperties properties_of(const Body &body)
 {
   return {body.type,           body.trigger,         body.continuous,       body.material,
           body.mass,           body.inertia,         body.infinite_inertia, body.gravity_factor,
-          body.linear_damping, body.angular_damping, body.filter_group,     body.filter_mask};
+          body.linear_damping, body.angular_damping, body.filter_group,     body.filter_mask,
+          body.linear_locks,   body.angular_locks,   body.max_linear_speed, body.max_angular_speed,
+          body.user_data};
 }
 
 void World::Implementation::set_properties(std::span<const BodyId> ids, std::span<const BodyProperties> properties)
@@ -100,7 +108,7 @@ void World::Implementation::set_properties(std::span<const BodyId> ids, std::spa
                                  ids.size(), properties.size()));
   std::vector<uint32_t> given;
   for (const BodyId &id : ids) given.push_back(slots.slot_of("set_properties", id));
-  const ChangedBodies changed = changed_by(scene, given, properties);
+  const ChangedBodies changed = changed_by(scene, settings, given, properties);
   if (ids.empty()) return;
   settle(); /* what was called before comes before */
   buffers.make_ready(sizes());

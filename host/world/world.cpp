@@ -35,6 +35,7 @@ World::World(const Scene &scene, const Settings &settings, const Placement &plac
     validate(scene, scene.name);
     validate(settings);
     check_numbers(scene);
+    for (size_t i = 0; i < scene.bodies.size(); ++i) check_solver(settings, scene.bodies[i], i, scene.name);
     implementation_ = std::make_unique<Implementation>(scene, settings, placement);
     for (const Extension &extension : settings.extensions)
       if (extension.prepare) extension.prepare(*this);

@@ -83,12 +83,17 @@ SHARED void move_to(GLOBAL const Parameters *parameters, GLOBAL const float4 *co
   store_linear_and_angular(body_velocity, body, scale(way, rate), scale(turn, rate));
 }
 
-SHARED void add_impulse(GLOBAL const float4 *body_mass, GLOBAL const float4 *body_orientation,
+/* locks: of the body, 0 without locks. */
+SHARED void add_impulse(GLOBAL const float4 *body_mass, uint locks, GLOBAL const float4 *body_orientation,
                         GLOBAL float4 *body_velocity, uint body, vec3 impulse, vec3 angular_impulse)
 {
   spatial_velocity m = load_velocity(body_velocity, body);
   symmetric3 inverse_inertia = rotate_diagonal(rotation_of(quat_from(load_float4(body_orientation, body))),
                                                xyz(load_float4(body_mass, body * 2u)));
+  if (locks != 0u) {
+    impulse = without_locked_axes(impulse, linear_locks(locks));
+    inverse_inertia = held_about_axes(inverse_inertia, angular_locks(locks));
+  }
   store_linear_and_angular(body_velocity, body, add_scaled(m.linear, impulse, m.inverse_mass),
                            add(m.angular, symmetric_times(inverse_inertia, angular_impulse)));
 }
@@ -104,11 +109,13 @@ SHARED vec3 moment_of_command(GLOBAL const float4 *command_value, uint command, 
 
 /* A fixed body has no velocity, whatever is asked. */
 SHARED void apply_commands_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_flags,
-                                GLOBAL const float4 *body_mass, read_commands commands, GLOBAL float4 *body_position,
-                                GLOBAL float4 *body_orientation, GLOBAL float4 *body_velocity, uint i)
+                                GLOBAL const float4 *body_mass, GLOBAL const uint *body_lock, read_commands commands,
+                                GLOBAL float4 *body_position, GLOBAL float4 *body_orientation,
+                                GLOBAL float4 *body_velocity, uint i)
 {
   for (uint k = commands.start[i]; k < commands.start[i + 1u]; ++k) {
     uint body = commands.command[2u * k], kind = commands.command[2u * k + 1u];
+    uint locks = HAS_FEATURE(parameters, LOCKS) ? body_lock[body] : 0u;
     int stands = body_type_of(body_flags[body]) == (uint)BODY_TYPE_FIXED;
     vec3 first = command_row(commands.value, k, 0u), second = command_row(commands.value, k, 1u);
     if (kind == (uint)COMMAND_SET_POSE) set_pose(commands.value, k, body_position, body_orientation, body);
@@ -118,9 +125,9 @@ SHARED void apply_commands_item(GLOBAL const Parameters *parameters, GLOBAL cons
     else if (kind == (uint)COMMAND_MOVE_TO)
       move_to(parameters, commands.value, k, body_position, body_orientation, body_velocity, body);
     else if (kind == (uint)COMMAND_ADD_IMPULSE)
-      add_impulse(body_mass, body_orientation, body_velocity, body, first, second);
+      add_impulse(body_mass, locks, body_orientation, body_velocity, body, first, second);
     else if (kind == (uint)COMMAND_ADD_IMPULSE_AT)
-      add_impulse(body_mass, body_orientation, body_velocity, body, first,
+      add_impulse(body_mass, locks, body_orientation, body_velocity, body, first,
                   moment_of_command(commands.value, k, body_position, body));
   }
 }

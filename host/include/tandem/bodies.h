@@ -66,6 +66,11 @@ struct BodyProperties {
   std::optional<float> angular_damping = std::nullopt; /* 1/s */
   std::optional<uint32_t> filter_group = std::nullopt;
   std::optional<uint32_t> filter_mask = std::nullopt;
+  std::optional<Axes> linear_locks = std::nullopt;
+  std::optional<Axes> angular_locks = std::nullopt;
+  std::optional<float> max_linear_speed = std::nullopt;  /* m/s */
+  std::optional<float> max_angular_speed = std::nullopt; /* rad/s */
+  std::optional<uint64_t> user_data = std::nullopt;
 };
 
 /* All properties of a body, for instance to restore them later. */

@@ -150,6 +150,15 @@ public:
   {
     set_properties(id, {.filter_group = group, .filter_mask = mask});
   }
+  void set_locks(const BodyId &id, const Axes &linear, const Axes &angular)
+  {
+    set_properties(id, {.linear_locks = linear, .angular_locks = angular});
+  }
+  void set_max_speeds(const BodyId &id, float linear, float angular)
+  {
+    set_properties(id, {.max_linear_speed = linear, .max_angular_speed = angular});
+  }
+  void set_user_data(const BodyId &id, uint64_t data) { set_properties(id, {.user_data = data}); }
   /* The body as it is in scene(): with its present properties, and the pose and velocity that it was created with. */
   Body body_description(const BodyId &id) const;
 
