@@ -36,6 +36,7 @@ struct World::Implementation::Arrival {
   std::vector<uint32_t> slots;                         /* of the new bodies, in their order */
   std::array<size_t, regions> again{};                 /* how many free slots of each region are used */
   std::array<std::vector<uint32_t>, regions> appended; /* new slots, by region */
+  std::vector<uint32_t> restated;                      /* slots of old bodies whose state is that of the scene */
   float median = 0;
   bool grows = false; /* beyond the present room */
 
@@ -320,10 +321,11 @@ void World::Implementation::plan_layout(const Arrival &arrival, std::vector<uint
   buffers.make_ready(sizes());
 }
 
-/* The states of the new bodies, in their places. */
+/* The states of the new bodies, in their places, and of those that a call has changed. */
 void World::Implementation::stage_arrival(StagedUploads &uploads, const Arrival &arrival) const
 {
-  const std::set<uint32_t> is_new(arrival.slots.begin(), arrival.slots.end());
+  std::set<uint32_t> is_new(arrival.slots.begin(), arrival.slots.end());
+  is_new.insert(arrival.restated.begin(), arrival.restated.end());
   for (uint32_t index = 0; index < bodies(); ++index)
     if (is_new.contains(special.order[index])) stage_states(uploads, scene, std::span(&special.order[index], 1), index);
 }
@@ -359,10 +361,11 @@ void World::Implementation::lay_out_anew(const Arrival &arrival)
   forget_kept(memory);
 }
 
-/* The same bodies with other features. */
-void World::Implementation::lay_out_anew()
+/* The same bodies with other features or shapes. */
+void World::Implementation::lay_out_anew(std::span<const uint32_t> restated)
 {
   Arrival nobody;
+  nobody.restated.assign(restated.begin(), restated.end());
   nobody.median = special.median;
   lay_out_anew(nobody);
 }
@@ -393,7 +396,10 @@ void World::Implementation::destroy(std::span<const BodyId> ids)
   ++state;
   uploads.write(memory);
   forget_kept(memory);
-  for (const uint32_t index : indices) slots.free(special.order[index], region_of(index), statistics.steps);
+  for (const uint32_t index : indices) {
+    shapes.forget(special.order[index]);
+    slots.free(special.order[index], region_of(index), statistics.steps);
+  }
 }
 
 uint32_t World::Implementation::add_shape(const Shape &shape)

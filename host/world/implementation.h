@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <set>
 #include <span>
@@ -26,6 +27,7 @@
 #include "host/world/commands.h"
 #include "host/world/placed_backends.h"
 #include "host/world/queries.h"
+#include "host/world/shape_slots.h"
 #include "host/world/step_buffers.h"
 
 namespace tandem {
@@ -93,6 +95,13 @@ struct World::Implementation {
   void set_properties(std::span<const BodyId> ids, std::span<const BodyProperties> properties);
   void write_properties(std::span<const uint32_t> slots);
 
+  /* --- shapes of bodies that come and go: shapes.cpp -------------------------------------------------------------- */
+  std::vector<ShapeId> shapes_of(const BodyId &id);
+  std::vector<ShapeId> add_shapes(std::span<const BodyId> ids, std::span<const Child> given);
+  void remove_shapes(std::span<const ShapeId> ids);
+  uint32_t own_shape(uint32_t slot, const std::set<uint32_t> &taken);
+  void give_parts(const char *call, const std::map<uint32_t, std::vector<Child>> &parts);
+
   /* --- bodies that come and go: bodies.cpp ----------------------------------------------------------------------- */
   struct Arrival;
   class LayoutBackup;
@@ -114,7 +123,7 @@ struct World::Implementation {
   void note_kinds(std::span<const uint32_t> slots);
   void place_among_others(const Arrival &arrival);
   void lay_out_anew(const Arrival &arrival);
-  void lay_out_anew();
+  void lay_out_anew(std::span<const uint32_t> restated = {}); /* bodies whose state the scene has */
   void plan_layout(const Arrival &arrival, std::vector<uint32_t> order);
   void stage_arrival(StagedUploads &uploads, const Arrival &arrival) const;
 
@@ -135,6 +144,8 @@ struct World::Implementation {
   Memory memory;
   StepBuffers buffers;
   BodySlots slots;
+  ShapeSlots shapes;
+  std::set<uint32_t> made_shapes; /* of the scene, for a body alone */
   PlacedLauncher launcher;
   StepPlan plan;
   std::vector<std::pair<int, uint32_t>> scene_entries; /* of counts */

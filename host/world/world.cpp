@@ -162,6 +162,26 @@ Body World::body_description(const BodyId &id) const
   return implementation_->scene.bodies[implementation_->slots.slot_of("body_description", id)];
 }
 
+std::vector<ShapeId> World::add_shapes(std::span<const BodyId> ids, std::span<const Child> shapes)
+{
+  const minicl::ExactFloatingPoint environment;
+  return answer("shapes of bodies", implementation_->slots.existing(),
+                [&] { return implementation_->add_shapes(ids, shapes); });
+}
+
+void World::remove_shapes(std::span<const ShapeId> ids)
+{
+  const minicl::ExactFloatingPoint environment;
+  answer("shapes of bodies", implementation_->slots.existing(), [&] { implementation_->remove_shapes(ids); });
+}
+
+std::vector<ShapeId> World::shapes_of(const BodyId &id)
+{
+  return answer("shapes of bodies", implementation_->slots.existing(), [&] { return implementation_->shapes_of(id); });
+}
+
+BodyId World::body_of(const ShapeId &id) const { return implementation_->shapes.place_of("body_of", id).body; }
+
 std::vector<BodyState> World::read_bodies(std::span<const BodyId> ids)
 {
   return answer("the bodies", implementation_->slots.existing(), [&] { return implementation_->read(ids); });

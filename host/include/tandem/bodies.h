@@ -27,6 +27,13 @@ struct BodyId {
   friend bool operator==(const BodyId &, const BodyId &) = default;
 };
 
+/* A shape of a body: see World::shapes_of. */
+struct ShapeId {
+  uint32_t index = 0xffffffffu;
+  uint32_t generation = 0; /* 0: of no shape */
+  friend bool operator==(const ShapeId &, const ShapeId &) = default;
+};
+
 struct Velocity {
   Vec3 linear{0, 0, 0};  /* m/s, world axes */
   Vec3 angular{0, 0, 0}; /* rad/s, world axes */

@@ -162,6 +162,23 @@ public:
   /* The body as it is in scene(): with its present properties, and the pose and velocity that it was created with. */
   Body body_description(const BodyId &id) const;
 
+  /* Shapes of bodies. The shapes of a body are the children of its compound, in their order, or its only shape. An added
+   * one lies in the same frame as the others, that of Body::shape_position and shape_orientation; if the body is not a
+   * compound yet, it becomes one. The frame stays where it is in the world. If a dynamic body has no inertia of the
+   * user's (Body::inertia is 0), its mass follows at the density that it has, its position becomes the new centre of
+   * mass, and its velocity that of this point; other bodies keep all that. InputError: as compound_shape and validate()
+   * say; a half-space; the last shape of a body. Each call lays out the tables of shapes anew, so many changes should be
+   * one call. */
+  std::vector<ShapeId> add_shapes(std::span<const BodyId> ids, std::span<const Child> shapes);
+  ShapeId add_shape_to(const BodyId &id, const Child &shape)
+  {
+    return add_shapes(std::span(&id, 1), std::span(&shape, 1)).front();
+  }
+  void remove_shapes(std::span<const ShapeId> ids);
+  void remove_shape(const ShapeId &id) { remove_shapes(std::span(&id, 1)); }
+  std::vector<ShapeId> shapes_of(const BodyId &id);
+  BodyId body_of(const ShapeId &id) const;
+
   std::vector<BodyState> read_bodies(std::span<const BodyId> ids);
   BodyState read_body(const BodyId &id) { return read_bodies(std::span(&id, 1)).front(); }
   void set_states(std::span<const BodyId> ids, std::span<const BodyState> states);
