@@ -29,6 +29,7 @@ public:
   {
     run(Kernel::begin_step);
     run(Kernel::prepare_bodies);
+    if (has(FEATURE_LOCKS)) run(Kernel::lock_bodies);
     run_extensions(StepPoint::begin);
     find_pairs();
     if (has(FEATURE_TREES)) find_leaf_pairs();

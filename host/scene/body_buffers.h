@@ -17,6 +17,7 @@ namespace tandem {
 
 /* The two float4s of a double_float3: shared/records.h. */
 std::array<float4, 2> double_float3_of(const Point &p);
+float inverse_mass_of(const Body &body); /* 0 unless it is dynamic */
 /* The quaternion at length 1; unchanged if it has that length already. */
 Quat unit(const Quat &q);
 
@@ -31,6 +32,12 @@ void stage_shapes(StagedUploads &uploads, const Scene &scene, const std::vector<
 /* Stages all rows of bodies without children, to the indices from `first` on. */
 void stage_new_bodies(StagedUploads &uploads, const Scene &scene, const HullNumbers &hulls,
                       std::span<const uint32_t> bodies, uint32_t first);
+/* Stages what follows from properties of bodies (BodyProperties): mass, flags and filter of consecutive bodies, and
+ * flags and filters of the children of one. */
+void stage_properties(StagedUploads &uploads, const Scene &scene, std::span<const uint32_t> bodies, uint32_t first,
+                      const std::vector<BodyStatus> &status);
+void stage_child_properties(StagedUploads &uploads, const Scene &scene, uint32_t body, uint32_t first_child,
+                            const std::vector<BodyStatus> &status);
 /* Stages the initial state of bodies, to the indices from `first` on. */
 void stage_states(StagedUploads &uploads, const Scene &scene, std::span<const uint32_t> bodies, uint32_t first);
 /* Makes slots free: points at rest that take part in nothing, where the bodies were. */

@@ -24,6 +24,7 @@
 #include "host/runtime/interface/floating_point.h"
 #include "host/runtime/interface/module.h"
 #include "host/world/implementation.h"
+#include "host/world/placed_bodies.h"
 #include "host/world/reordered_rows.h"
 
 namespace tandem {
@@ -35,6 +36,7 @@ struct World::Implementation::Arrival {
   std::vector<uint32_t> slots;                         /* of the new bodies, in their order */
   std::array<size_t, regions> again{};                 /* how many free slots of each region are used */
   std::array<std::vector<uint32_t>, regions> appended; /* new slots, by region */
+  std::vector<uint32_t> restated;                      /* slots of old bodies whose state is that of the scene */
   float median = 0;
   bool grows = false; /* beyond the present room */
 
@@ -56,41 +58,6 @@ template <class Work> void for_each_run(std::span<const uint32_t> sorted, const 
     at = end;
   }
 }
-
-/* Puts bodies into a scene, and takes them out again unless they are kept. */
-class AddedBodies {
-public:
-  AddedBodies(Scene &scene, std::span<const uint32_t> slots, std::span<const Body> bodies)
-      : scene_(scene), count_(scene.bodies.size())
-  {
-    replaced_.reserve(bodies.size());
-    scene.bodies.reserve(count_ + bodies.size());
-    for (size_t i = 0; i < bodies.size(); ++i) put(slots[i], bodies[i]);
-  }
-  ~AddedBodies()
-  {
-    if (kept_) return;
-    for (auto one = replaced_.rbegin(); one != replaced_.rend(); ++one)
-      std::swap(scene_.bodies[one->first], one->second);
-    scene_.bodies.resize(count_);
-  }
-  AddedBodies(const AddedBodies &) = delete;
-  AddedBodies &operator=(const AddedBodies &) = delete;
-  void keep() noexcept { kept_ = true; }
-
-private:
-  void put(uint32_t slot, Body body)
-  {
-    if (slot >= scene_.bodies.size()) return scene_.bodies.push_back(std::move(body));
-    replaced_.emplace_back(slot, std::move(body));
-    std::swap(scene_.bodies[slot], replaced_.back().second);
-  }
-
-  Scene &scene_;
-  size_t count_;
-  std::vector<std::pair<uint32_t, Body>> replaced_;
-  bool kept_ = false;
-};
 
 bool has_tree(const Shape &shape) { return shape.mesh || shape.compound; }
 
@@ -169,7 +136,10 @@ void World::Implementation::check_new(std::span<const Body> given) const
   if (given.size() + slots.count() >= body_numbers)
     throw InputError(fmt::format("create_bodies: {} bodies and {} more; kernels can number {}", slots.count(),
                                  given.size(), body_numbers - 1));
-  for (size_t i = 0; i < given.size(); ++i) validate(scene, given[i], i, "create_bodies");
+  for (size_t i = 0; i < given.size(); ++i) {
+    validate(scene, given[i], i, "create_bodies");
+    check_solver(settings, given[i], i, "create_bodies");
+  }
 }
 
 /* New slots are numbered in the order of the call. */
@@ -206,18 +176,37 @@ World::Implementation::Arrival World::Implementation::arrival_of(std::span<const
   return arrival;
 }
 
+/* The kinds of all bodies that exist, and of those in these slots. */
+void World::Implementation::note_kinds(std::span<const uint32_t> slots_of_bodies)
+{
+  known_kinds.clear();
+  for (uint32_t slot = 0; slot < slots.count(); ++slot)
+    if (slots.exists(slot)) known_kinds.insert(kind_of(scene, scene.bodies[slot]));
+  for (const uint32_t slot : slots_of_bodies) known_kinds.insert(kind_of(scene, scene.bodies[slot]));
+}
+
+/* True if bodies, which stand in the scene already, bring a feature or a material that the tables lack. Features follow
+ * from kinds that are in the scene together, so a new kind makes the list of known ones anew. */
+bool World::Implementation::brings_features(std::span<const uint32_t> slots_of_bodies)
+{
+  const auto is_known = [&](uint32_t slot) { return known_kinds.contains(kind_of(scene, scene.bodies[slot])); };
+  const auto has_new_material = [&](uint32_t slot) { return scene.bodies[slot].material >= uploaded_materials; };
+  bool brings = std::any_of(slots_of_bodies.begin(), slots_of_bodies.end(), has_new_material);
+  if (!std::all_of(slots_of_bodies.begin(), slots_of_bodies.end(), is_known)) {
+    note_kinds(slots_of_bodies);
+    brings = brings || (features_of(scene, settings) & ~scene_features) != 0;
+  }
+  return brings;
+}
+
 /* True if more than the rows of the bodies themselves must change. The bodies stand in the scene already. */
 bool World::Implementation::brings_tables(const Arrival &arrival)
 {
-  if (known_kinds.empty())
-    for (uint32_t slot = 0; slot < slots.count(); ++slot)
-      if (slots.exists(slot)) known_kinds.insert(kind_of(scene, scene.bodies[slot]));
-  bool brings = arrival.inserts() || bodies() + arrival.new_slots() > plan.bodies;
+  bool brings = brings_features(arrival.slots);
+  brings = brings || arrival.inserts() || bodies() + arrival.new_slots() > plan.bodies;
   for (const uint32_t slot : arrival.slots) {
     const Body &body = scene.bodies[slot];
-    const bool is_new = known_kinds.insert(kind_of(scene, body)).second;
-    brings = brings || is_new || body.shape >= uploaded_shapes || body.material >= uploaded_materials ||
-             has_tree(scene.shapes[body.shape]);
+    brings = brings || body.shape >= uploaded_shapes || has_tree(scene.shapes[body.shape]);
   }
   return brings;
 }
@@ -233,7 +222,7 @@ std::vector<BodyId> World::Implementation::create(std::span<const Body> given)
   slots.prepare_growth(arrival.new_slots());
   index_of_body.reserve(slots.count() + arrival.new_slots());
   special.order.reserve(bodies() + arrival.new_slots());
-  AddedBodies added(scene, arrival.slots, given);
+  PlacedBodies added(scene, arrival.slots, given);
   try {
     if (brings_tables(arrival)) lay_out_anew(arrival);
     else place_among_others(arrival);
@@ -330,10 +319,11 @@ void World::Implementation::plan_layout(const Arrival &arrival, std::vector<uint
   buffers.make_ready(sizes());
 }
 
-/* The states of the new bodies, in their places. */
+/* The states of the new bodies, in their places, and of those that a call has changed. */
 void World::Implementation::stage_arrival(StagedUploads &uploads, const Arrival &arrival) const
 {
-  const std::set<uint32_t> is_new(arrival.slots.begin(), arrival.slots.end());
+  std::set<uint32_t> is_new(arrival.slots.begin(), arrival.slots.end());
+  is_new.insert(arrival.restated.begin(), arrival.restated.end());
   for (uint32_t index = 0; index < bodies(); ++index)
     if (is_new.contains(special.order[index])) stage_states(uploads, scene, std::span(&special.order[index], 1), index);
 }
@@ -369,6 +359,15 @@ void World::Implementation::lay_out_anew(const Arrival &arrival)
   forget_kept(memory);
 }
 
+/* The same bodies with other features or shapes. */
+void World::Implementation::lay_out_anew(std::span<const uint32_t> restated)
+{
+  Arrival nobody;
+  nobody.restated.assign(restated.begin(), restated.end());
+  nobody.median = special.median;
+  lay_out_anew(nobody);
+}
+
 std::vector<uint32_t> World::Implementation::distinct_indices(const char *call, std::span<const BodyId> ids) const
 {
   std::vector<uint32_t> indices = indices_of(call, ids);
@@ -394,7 +393,10 @@ void World::Implementation::destroy(std::span<const BodyId> ids)
   ++state;
   uploads.write(memory);
   forget_kept(memory);
-  for (const uint32_t index : indices) slots.free(special.order[index], region_of(index), statistics.steps);
+  for (const uint32_t index : indices) {
+    shapes.forget(special.order[index]);
+    slots.free(special.order[index], region_of(index), statistics.steps);
+  }
 }
 
 uint32_t World::Implementation::add_shape(const Shape &shape)

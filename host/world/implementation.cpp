@@ -3,6 +3,10 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
+#include <tandem/error.h>
+
 #include "host/pipeline/broadphases/broadphase.h"
 #include "host/pipeline/broadphases/choice.h"
 #include "host/pipeline/scene_counts.h"
@@ -27,6 +31,14 @@ Settings resolved(Settings settings, const Scene &scene, const Placement &placem
 uint32_t first_capacity(const Scene &scene, const Settings &settings)
 {
   return static_cast<uint32_t>(std::min<uint64_t>(5 * uint64_t{scene.bodies.size()} + 1024, settings.max_pairs));
+}
+
+void check_solver(const Settings &settings, const Body &body, size_t index, const std::string &where)
+{
+  if (settings.solver == Solver::avbd && locks_of(body) != 0)
+    throw InputError(fmt::format("{}: body {}: linear_locks, angular_locks: the solver avbd has no locks of axes; all "
+                                 "other solvers have",
+                                 where, index));
 }
 
 World::Implementation::Implementation(const Scene &given, const Settings &chosen, const Placement &placement)

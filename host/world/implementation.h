@@ -1,12 +1,13 @@
 /* implementation.h - the contents of a world and the phases of a step, behind the interface of <tandem/world.h>.
  *
  * Members are declared in the order of their dependencies: backends outlive the memory that lies in their storage. The
- * functions are grouped by concern: making a world in implementation.cpp, steps in step_attempts.cpp, users' modules in
- * extensions.cpp.
+ * functions are grouped by concern: making a world in implementation.cpp, steps in step_attempts.cpp, calls to bodies
+ * in calls.cpp and properties.cpp, bodies that come and go in bodies.cpp, users' modules in extensions.cpp.
  */
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <set>
 #include <span>
@@ -26,6 +27,7 @@
 #include "host/world/commands.h"
 #include "host/world/placed_backends.h"
 #include "host/world/queries.h"
+#include "host/world/shape_slots.h"
 #include "host/world/step_buffers.h"
 
 namespace tandem {
@@ -35,6 +37,9 @@ constexpr uint32_t body_numbers = 1u << 28;
 
 /* The first capacity of pairs; a step that finds more runs again. */
 uint32_t first_capacity(const Scene &scene, const Settings &settings);
+
+/* Throws InputError if the body has locked axes and the solver holds none. */
+void check_solver(const Settings &settings, const Body &body, size_t index, const std::string &where);
 
 struct World::Implementation {
   Implementation(const Scene &given, const Settings &chosen, const Placement &placement);
@@ -86,6 +91,17 @@ struct World::Implementation {
   void add_forces(std::span<const BodyId> ids, std::span<const Force> forces);
   void use_forces();
 
+  /* --- properties that change: properties.cpp -------------------------------------------------------------------- */
+  void set_properties(std::span<const BodyId> ids, std::span<const BodyProperties> properties);
+  void write_properties(std::span<const uint32_t> slots);
+
+  /* --- shapes of bodies that come and go: shapes.cpp -------------------------------------------------------------- */
+  std::vector<ShapeId> shapes_of(const BodyId &id);
+  std::vector<ShapeId> add_shapes(std::span<const BodyId> ids, std::span<const Child> given);
+  void remove_shapes(std::span<const ShapeId> ids);
+  uint32_t own_shape(uint32_t slot, const std::set<uint32_t> &taken);
+  void give_parts(const char *call, const std::map<uint32_t, std::vector<Child>> &parts);
+
   /* --- bodies that come and go: bodies.cpp ----------------------------------------------------------------------- */
   struct Arrival;
   class LayoutBackup;
@@ -103,8 +119,11 @@ struct World::Implementation {
   void check_new(std::span<const Body> bodies) const;
   Arrival arrival_of(std::span<const Body> bodies) const;
   bool brings_tables(const Arrival &arrival);
+  bool brings_features(std::span<const uint32_t> slots);
+  void note_kinds(std::span<const uint32_t> slots);
   void place_among_others(const Arrival &arrival);
   void lay_out_anew(const Arrival &arrival);
+  void lay_out_anew(std::span<const uint32_t> restated = {}); /* bodies whose state the scene has */
   void plan_layout(const Arrival &arrival, std::vector<uint32_t> order);
   void stage_arrival(StagedUploads &uploads, const Arrival &arrival) const;
 
@@ -125,6 +144,8 @@ struct World::Implementation {
   Memory memory;
   StepBuffers buffers;
   BodySlots slots;
+  ShapeSlots shapes;
+  std::set<uint32_t> made_shapes; /* of the scene, for a body alone */
   PlacedLauncher launcher;
   StepPlan plan;
   std::vector<std::pair<int, uint32_t>> scene_entries; /* of counts */
@@ -138,7 +159,9 @@ struct World::Implementation {
   std::vector<uint32_t> index_of_body; /* by slot; for a free one, that of its last body */
   std::vector<uint32_t> order_of_events; /* the order that the last step had, if it has changed since; else empty */
   size_t uploaded_shapes = 0, uploaded_materials = 0; /* of the scene, that the tables hold */
-  std::set<BodyKind> known_kinds;                     /* of bodies; filled by the first call that creates some */
+  /* Kinds of bodies that were in the scene together when its features were last derived; filled by the first call that
+   * creates or changes some. */
+  std::set<BodyKind> known_kinds;
   CommandList commands, force_commands;               /* not applied yet */
   std::vector<Quarantine> quarantined;
   std::optional<BatchFault> fault;

@@ -35,6 +35,7 @@ World::World(const Scene &scene, const Settings &settings, const Placement &plac
     validate(scene, scene.name);
     validate(settings);
     check_numbers(scene);
+    for (size_t i = 0; i < scene.bodies.size(); ++i) check_solver(settings, scene.bodies[i], i, scene.name);
     implementation_ = std::make_unique<Implementation>(scene, settings, placement);
     for (const Extension &extension : settings.extensions)
       if (extension.prepare) extension.prepare(*this);
@@ -158,6 +159,38 @@ uint32_t World::add_material(const Material &material)
   return answer("a material", implementation_->slots.existing(),
                 [&] { return implementation_->add_material(material); });
 }
+
+void World::set_properties(std::span<const BodyId> ids, std::span<const BodyProperties> properties)
+{
+  const minicl::ExactFloatingPoint environment;
+  answer("properties of bodies", implementation_->slots.existing(),
+         [&] { implementation_->set_properties(ids, properties); });
+}
+
+Body World::body_description(const BodyId &id) const
+{
+  return implementation_->scene.bodies[implementation_->slots.slot_of("body_description", id)];
+}
+
+std::vector<ShapeId> World::add_shapes(std::span<const BodyId> ids, std::span<const Child> shapes)
+{
+  const minicl::ExactFloatingPoint environment;
+  return answer("shapes of bodies", implementation_->slots.existing(),
+                [&] { return implementation_->add_shapes(ids, shapes); });
+}
+
+void World::remove_shapes(std::span<const ShapeId> ids)
+{
+  const minicl::ExactFloatingPoint environment;
+  answer("shapes of bodies", implementation_->slots.existing(), [&] { implementation_->remove_shapes(ids); });
+}
+
+std::vector<ShapeId> World::shapes_of(const BodyId &id)
+{
+  return answer("shapes of bodies", implementation_->slots.existing(), [&] { return implementation_->shapes_of(id); });
+}
+
+BodyId World::body_of(const ShapeId &id) const { return implementation_->shapes.place_of("body_of", id).body; }
 
 std::vector<BodyState> World::read_bodies(std::span<const BodyId> ids)
 {

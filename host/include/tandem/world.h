@@ -124,6 +124,62 @@ public:
   uint32_t add_shape(const Shape &shape);
   uint32_t add_material(const Material &material);
 
+  /* Changes properties of bodies, in the order of the entries, after all calls so far. scene() then has the new values.
+   * The message of an InputError names the body. The first filter, trigger, damping, continuous body and so on of a
+   * world brings in new kernels and buffers, which takes longer than later changes. A body that becomes continuous
+   * stays among the small ones in the grid, whose cells must then hold its way through a step. */
+  void set_properties(std::span<const BodyId> ids, std::span<const BodyProperties> properties);
+  void set_properties(const BodyId &id, const BodyProperties &properties)
+  {
+    set_properties(std::span(&id, 1), std::span(&properties, 1));
+  }
+  void set_type(const BodyId &id, BodyType type) { set_properties(id, {.type = type}); }
+  void set_trigger(const BodyId &id, bool trigger) { set_properties(id, {.trigger = trigger}); }
+  void set_continuous(const BodyId &id, bool continuous) { set_properties(id, {.continuous = continuous}); }
+  void set_material(const BodyId &id, uint32_t material) { set_properties(id, {.material = material}); }
+  void set_mass(const BodyId &id, float mass) { set_properties(id, {.mass = mass}); }
+  void set_mass(const BodyId &id, float mass, const Vec3 &inertia)
+  {
+    set_properties(id, {.mass = mass, .inertia = inertia});
+  }
+  void set_gravity_factor(const BodyId &id, float factor) { set_properties(id, {.gravity_factor = factor}); }
+  void set_damping(const BodyId &id, float linear, float angular)
+  {
+    set_properties(id, {.linear_damping = linear, .angular_damping = angular});
+  }
+  void set_filter(const BodyId &id, uint32_t group, uint32_t mask)
+  {
+    set_properties(id, {.filter_group = group, .filter_mask = mask});
+  }
+  void set_locks(const BodyId &id, const Axes &linear, const Axes &angular)
+  {
+    set_properties(id, {.linear_locks = linear, .angular_locks = angular});
+  }
+  void set_max_speeds(const BodyId &id, float linear, float angular)
+  {
+    set_properties(id, {.max_linear_speed = linear, .max_angular_speed = angular});
+  }
+  void set_user_data(const BodyId &id, uint64_t data) { set_properties(id, {.user_data = data}); }
+  /* The body as it is in scene(): with its present properties, and the pose and velocity that it was created with. */
+  Body body_description(const BodyId &id) const;
+
+  /* Shapes of bodies. The shapes of a body are the children of its compound, in their order, or its only shape. An added
+   * one lies in the same frame as the others, that of Body::shape_position and shape_orientation; if the body is not a
+   * compound yet, it becomes one. The frame stays where it is in the world. If a dynamic body has no inertia of the
+   * user's (Body::inertia is 0), its mass follows at the density that it has, its position becomes the new centre of
+   * mass, and its velocity that of this point; other bodies keep all that. InputError: as compound_shape and validate()
+   * say; a half-space; the last shape of a body. Each call lays out the tables of shapes anew, so many changes should be
+   * one call. */
+  std::vector<ShapeId> add_shapes(std::span<const BodyId> ids, std::span<const Child> shapes);
+  ShapeId add_shape_to(const BodyId &id, const Child &shape)
+  {
+    return add_shapes(std::span(&id, 1), std::span(&shape, 1)).front();
+  }
+  void remove_shapes(std::span<const ShapeId> ids);
+  void remove_shape(const ShapeId &id) { remove_shapes(std::span(&id, 1)); }
+  std::vector<ShapeId> shapes_of(const BodyId &id);
+  BodyId body_of(const ShapeId &id) const;
+
   std::vector<BodyState> read_bodies(std::span<const BodyId> ids);
   BodyState read_body(const BodyId &id) { return read_bodies(std::span(&id, 1)).front(); }
   void set_states(std::span<const BodyId> ids, std::span<const BodyState> states);

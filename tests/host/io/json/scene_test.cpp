@@ -76,7 +76,9 @@ bool same_bits(const Body &a, const Body &b)
          same_bits(a.mass, b.mass) && same_bits(a.inertia, b.inertia) && a.infinite_inertia == b.infinite_inertia &&
          same_bits(a.gravity_factor, b.gravity_factor) && same_bits(a.linear_damping, b.linear_damping) &&
          same_bits(a.angular_damping, b.angular_damping) && a.filter_group == b.filter_group &&
-         a.filter_mask == b.filter_mask && a.continuous == b.continuous;
+         a.filter_mask == b.filter_mask && a.continuous == b.continuous && a.linear_locks == b.linear_locks &&
+         a.angular_locks == b.angular_locks && same_bits(a.max_linear_speed, b.max_linear_speed) &&
+         same_bits(a.max_angular_speed, b.max_angular_speed) && a.user_data == b.user_data;
 }
 
 void check_same(const Scene &a, const Scene &b)
@@ -150,6 +152,11 @@ Scene scene_of_odd_numbers()
     body.filter_group = uint32_t(random.next());
     body.filter_mask = uint32_t(random.next());
     body.continuous = random.below(2) == 1;
+    body.linear_locks = {random.below(2) == 1, random.below(2) == 1, random.below(2) == 1};
+    body.angular_locks = {random.below(2) == 1, random.below(2) == 1, random.below(2) == 1};
+    if (i % 3 == 0) body.max_linear_speed = std::abs(any_float(random)) + 0x1p-100f;
+    if (i % 3 == 1) body.max_angular_speed = 0x1p-149f;
+    body.user_data = i % 2 ? random.next() : 0;
     scene.bodies.push_back(body);
   }
   for (uint32_t shape = 4; shape < scene.shapes.size(); ++shape) {
