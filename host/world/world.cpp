@@ -45,6 +45,13 @@ World::World(const Scene &scene, const Settings &settings, const Placement &plac
   }
 }
 
+World::World(std::span<const std::byte> snapshot, const Placement &placement, std::vector<Extension> extensions)
+{
+  implementation_ = naming_what_failed(
+      [&] { return fmt::format("out of memory: a world of a snapshot of {} bytes", snapshot.size()); },
+      [&] { return Implementation::restored(snapshot, std::move(extensions), placement, nullptr); });
+}
+
 namespace {
 
 /* Runs a query of a world; if memory runs out, the message says what was requested and for how many bodies. */
@@ -77,6 +84,43 @@ Memory &World::memory() { return implementation_->memory; }
 Backend &World::backend_of(Kernel kernel) { return implementation_->backends.of(kernel); }
 uint32_t World::scene_body(uint32_t buffer_index) const { return implementation_->special.order.at(buffer_index); }
 void World::set_observer(Observer observer) { implementation_->launcher.set_observer(std::move(observer)); }
+
+std::vector<std::byte> World::save()
+{
+  return answer("a snapshot", implementation_->slots.existing(), [&] { return implementation_->save(); });
+}
+
+void World::restore(std::span<const std::byte> snapshot)
+{
+  try {
+    implementation_ = naming_what_failed(
+        [&] { return fmt::format("out of memory: a world of a snapshot of {} bytes", snapshot.size()); },
+        [&] {
+          return Implementation::restored(snapshot, implementation_->settings.extensions, {}, implementation_.get());
+        });
+  } catch (...) {
+    implementation_->backends.take_back();
+    throw;
+  }
+}
+
+void World::keep_states(uint32_t states, bool after_steps)
+{
+  answer("states to go back to", implementation_->slots.existing(),
+         [&] { implementation_->keep_states(states, after_steps); });
+}
+
+void World::keep_state()
+{
+  answer("a state to go back to", implementation_->slots.existing(), [&] { implementation_->keep_state(); });
+}
+
+uint32_t World::states_kept() const { return static_cast<uint32_t>(implementation_->ring.kept()); }
+
+void World::go_back(uint32_t states)
+{
+  answer("a state to go back to", implementation_->slots.existing(), [&] { implementation_->go_back(states); });
+}
 
 std::vector<BodyState> World::bodies()
 {

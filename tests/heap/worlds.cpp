@@ -168,6 +168,13 @@ std::vector<std::pair<const char *, Call>> questions(const Settings &settings)
          world.place(Placement{"serial", {{"solve", "tbb:threads=3"}, {"queries", "serial:order=backward"}}, false});
        }},
       {"set_body", [](World &world) { world.set_body(1, world.bodies()[1]); }},
+      {"save", [](World &world) { world.save(); }},
+      {"restore", [](World &world) { world.restore(world.save()); }},
+      {"go_back",
+       [](World &world) {
+         world.keep_states(2);
+         world.go_back(0);
+       }},
   };
   if (settings.events) calls.push_back({"contact_events", [](World &world) { world.contact_events(); }});
   if (settings.pair_events) calls.push_back({"pair_events", [](World &world) { world.pair_events(); }});

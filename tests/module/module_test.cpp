@@ -212,6 +212,32 @@ TEST_CASE("module: what no kernel writes in a step stays as it was")
   CHECK(seen == std::vector<uint32_t>{1, 2, 2, 3, 4});
 }
 
+TEST_CASE("module: a snapshot holds what its buffers hold, and asks for the module")
+{
+  World world(balls(5), with(pushing(1)), {"tbb", {}});
+  world.write<uint32_t>(probe::buffer::probe_ghost(), std::vector<uint32_t>{1, 0, 1, 0, 1, 0, 1});
+  world.write<uint32_t>(probe::buffer::probe_label(), std::vector<uint32_t>{7, 8, 9}, 1000);
+  for (int i = 0; i < 3; ++i) world.step();
+  const std::vector<std::byte> snapshot = world.save();
+  Extension other = pushing(1);
+  other.prepare = [](World &) { FAIL("the buffers of a snapshot are prepared already"); };
+  World restored(snapshot, {"serial", {}}, {other});
+  CHECK(restored.state_hash() == world.state_hash());
+  CHECK(restored.read<float>(probe::buffer::probe_force()) == gust);
+  CHECK(restored.read<uint32_t>(probe::buffer::probe_ghost()) == world.read<uint32_t>(probe::buffer::probe_ghost()));
+  CHECK(restored.read<uint32_t>(probe::buffer::probe_label())[1002] == 9);
+  for (World *one : {&world, &restored})
+    for (int i = 0; i < 3; ++i) one->step();
+  CHECK(restored.state_hash() == world.state_hash());
+  CHECK(restored.read<uint32_t>(probe::buffer::probe_age()) == std::vector<uint32_t>(5, 6));
+  CHECK(message_of([&] { World without(snapshot, {"serial", {}}); }) ==
+        "snapshot: its world had the modules [probe], and [] are given; give extensions of the same modules in the "
+        "same order");
+  world.restore(snapshot);
+  world.step();
+  CHECK(world.read<uint32_t>(probe::buffer::probe_age()) == std::vector<uint32_t>(5, 4));
+}
+
 TEST_CASE("module: a buffer of any size keeps what it had where there is no room for more, and grows else")
 {
   World world(balls(3), with(pushing(0)), {"serial", {}});
