@@ -40,6 +40,8 @@ template <class T> struct IsArray : std::false_type {};
 template <class T, size_t n> struct IsArray<std::array<T, n>> : std::true_type {};
 template <class T> struct IsVector : std::false_type {};
 template <class T> struct IsVector<std::vector<T>> : std::true_type {};
+template <class T> struct IsSpan : std::false_type {};
+template <class T> struct IsSpan<std::span<T>> : std::true_type {};
 template <class T> struct IsOptional : std::false_type {};
 template <class T> struct IsOptional<std::optional<T>> : std::true_type {};
 
@@ -70,14 +72,15 @@ public:
     else if constexpr (std::is_same_v<T, std::string>) put_list_of_bytes(value.data(), value.size(), 1);
     else if constexpr (IsArray<T>::value) {
       for (const auto &element : value) put(element);
-    } else if constexpr (IsVector<T>::value) put_list(std::span(value));
+    } else if constexpr (IsVector<T>::value || IsSpan<T>::value) put_list(std::span(value));
     else if constexpr (IsOptional<T>::value) {
       put(value.has_value());
       if (value) put(*value);
     } else std::apply([this](const auto &...fields) { (put(fields), ...); }, fields_of(value));
   }
-  template <class T> void put_list(std::span<const T> values)
+  template <class Element> void put_list(std::span<Element> values)
   {
+    using T = std::remove_const_t<Element>;
     if constexpr (IsPlain<T>::value) return put_list_of_bytes(values.data(), values.size(), sizeof(T));
     put(uint64_t{values.size()});
     for (const T &value : values) put(value);

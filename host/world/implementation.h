@@ -23,6 +23,7 @@
 #include "host/scene/specialise.h"
 #include "host/scene/tree_tables.h"
 #include "host/world/body_slots.h"
+#include "host/world/call_log.h"
 #include "host/world/commands.h"
 #include "host/world/placed_backends.h"
 #include "host/world/queries.h"
@@ -31,7 +32,6 @@
 
 namespace tandem {
 
-class ByteWriter;
 struct SnapshotContents;
 
 /* A body's index shares a word with the stage in which the body failed (COUNT_NONFINITE). */
@@ -104,6 +104,11 @@ struct World::Implementation {
                                                   std::vector<Extension> extensions, const Placement &placement,
                                                   const Implementation *old);
   void take_buffers(const SnapshotContents &contents);
+
+  /* --- recordings: call_log.cpp ---------------------------------------------------------------------------------- */
+  void start_recording(const std::string &path, const RecordingOptions &options);
+  void log_step();
+  uint64_t state_hash();
 
   /* --- the last states: state_ring.cpp --------------------------------------------------------------------------- */
   void keep_states(uint32_t states, bool after_steps);
@@ -187,6 +192,7 @@ struct World::Implementation {
   Statistics statistics;
   uint32_t cached_pairs = 0; /* in the contact cache, as cached_start says */
   StateRing ring;
+  std::unique_ptr<CallLog> log; /* of the recording, if one is made */
 };
 
 } // namespace tandem

@@ -103,4 +103,41 @@ template <Is<BatchFault> T> auto fields_of(T &record)
   return std::tie(step, conflict, color, body, pair, other, constraints);
 }
 
+/* Of calls: */
+template <Is<BodyId> T> auto fields_of(T &record)
+{
+  auto &[index, generation] = record;
+  return std::tie(index, generation);
+}
+
+template <Is<BodyState> T> auto fields_of(T &record)
+{
+  auto &[position, orientation, linear_velocity, angular_velocity] = record;
+  return std::tie(position, orientation, linear_velocity, angular_velocity);
+}
+
+template <Is<Pose> T> auto fields_of(T &record)
+{
+  auto &[position, orientation] = record;
+  return std::tie(position, orientation);
+}
+
+template <Is<Velocity> T> auto fields_of(T &record)
+{
+  auto &[linear, angular] = record;
+  return std::tie(linear, angular);
+}
+
+template <Is<Force> T> auto fields_of(T &record)
+{
+  auto &[force, torque, point] = record;
+  return std::tie(force, torque, point);
+}
+
+template <Is<Impulse> T> auto fields_of(T &record)
+{
+  auto &[impulse, angular_impulse, point] = record;
+  return std::tie(impulse, angular_impulse, point);
+}
+
 } // namespace tandem

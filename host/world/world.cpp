@@ -67,9 +67,23 @@ template <class Work> auto answer(const char *what, size_t bodies, Work work)
 
 } // namespace
 
+namespace {
+
+/* Writes a call that has succeeded, if a recording is made. */
+template <class... T> void note(const std::unique_ptr<CallLog> &log, RecordedCall call, const T &...fields)
+{
+  if (log) log->put(call, fields...);
+}
+
+} // namespace
+
 World::~World() = default;
 
-void World::step() { implementation_->step(); }
+void World::step()
+{
+  implementation_->step();
+  implementation_->log_step();
+}
 void World::place(const Placement &placement)
 {
   answer("the placement", implementation_->slots.existing(), [&] { implementation_->place(placement); });
@@ -93,26 +107,41 @@ std::vector<std::byte> World::save()
 void World::restore(std::span<const std::byte> snapshot)
 {
   try {
-    implementation_ = naming_what_failed(
+    auto restored = naming_what_failed(
         [&] { return fmt::format("out of memory: a world of a snapshot of {} bytes", snapshot.size()); },
         [&] {
           return Implementation::restored(snapshot, implementation_->settings.extensions, {}, implementation_.get());
         });
+    restored->log = std::move(implementation_->log);
+    implementation_ = std::move(restored);
   } catch (...) {
     implementation_->backends.take_back();
     throw;
   }
+  note(implementation_->log, RecordedCall::restore, snapshot);
+}
+
+void World::start_recording(const std::string &path, const RecordingOptions &options)
+{
+  answer("a recording", implementation_->slots.existing(), [&] { implementation_->start_recording(path, options); });
+}
+
+void World::stop_recording()
+{
+  if (const std::unique_ptr<CallLog> log = std::move(implementation_->log)) log->finish();
 }
 
 void World::keep_states(uint32_t states, bool after_steps)
 {
   answer("states to go back to", implementation_->slots.existing(),
          [&] { implementation_->keep_states(states, after_steps); });
+  note(implementation_->log, RecordedCall::keep_states, states, after_steps);
 }
 
 void World::keep_state()
 {
   answer("a state to go back to", implementation_->slots.existing(), [&] { implementation_->keep_state(); });
+  note(implementation_->log, RecordedCall::keep_state);
 }
 
 uint32_t World::states_kept() const { return static_cast<uint32_t>(implementation_->ring.kept()); }
@@ -120,6 +149,7 @@ uint32_t World::states_kept() const { return static_cast<uint32_t>(implementatio
 void World::go_back(uint32_t states)
 {
   answer("a state to go back to", implementation_->slots.existing(), [&] { implementation_->go_back(states); });
+  note(implementation_->log, RecordedCall::go_back, states);
 }
 
 std::vector<BodyState> World::bodies()
@@ -155,6 +185,7 @@ void World::set_body_unchecked(uint32_t body, const BodyState &state)
     implementation_->settle(); /* what was called before comes before */
     upload_body(implementation_->memory, implementation_->index_of_body.at(body), state);
   });
+  note(implementation_->log, RecordedCall::set_body, body, state);
 }
 
 BodyId World::id_of(uint32_t body) const
@@ -184,23 +215,32 @@ uint32_t World::body_count() const { return implementation_->slots.existing(); }
 
 std::vector<BodyId> World::create_bodies(std::span<const Body> bodies)
 {
-  return answer("new bodies", implementation_->slots.existing(), [&] { return implementation_->create(bodies); });
+  std::vector<BodyId> ids =
+      answer("new bodies", implementation_->slots.existing(), [&] { return implementation_->create(bodies); });
+  note(implementation_->log, RecordedCall::create_bodies, bodies, ids);
+  return ids;
 }
 
 void World::destroy_bodies(std::span<const BodyId> ids)
 {
   answer("the destruction of bodies", implementation_->slots.existing(), [&] { implementation_->destroy(ids); });
+  note(implementation_->log, RecordedCall::destroy_bodies, ids);
 }
 
 uint32_t World::add_shape(const Shape &shape)
 {
-  return answer("a shape", implementation_->slots.existing(), [&] { return implementation_->add_shape(shape); });
+  const uint32_t index =
+      answer("a shape", implementation_->slots.existing(), [&] { return implementation_->add_shape(shape); });
+  note(implementation_->log, RecordedCall::add_shape, shape, index);
+  return index;
 }
 
 uint32_t World::add_material(const Material &material)
 {
-  return answer("a material", implementation_->slots.existing(),
-                [&] { return implementation_->add_material(material); });
+  const uint32_t index =
+      answer("a material", implementation_->slots.existing(), [&] { return implementation_->add_material(material); });
+  note(implementation_->log, RecordedCall::add_material, material, index);
+  return index;
 }
 
 std::vector<BodyState> World::read_bodies(std::span<const BodyId> ids)
@@ -212,41 +252,53 @@ void World::set_states(std::span<const BodyId> ids, std::span<const BodyState> s
 {
   const minicl::ExactFloatingPoint environment;
   answer("calls to bodies", implementation_->slots.existing(), [&] { implementation_->set_states(ids, states); });
+  note(implementation_->log, RecordedCall::set_states, ids, states);
 }
 
 void World::set_velocities(std::span<const BodyId> ids, std::span<const Velocity> velocities)
 {
   answer("calls to bodies", implementation_->slots.existing(),
          [&] { implementation_->set_velocities(ids, velocities); });
+  note(implementation_->log, RecordedCall::set_velocities, ids, velocities);
 }
 
 void World::move_to(std::span<const BodyId> ids, std::span<const Pose> poses)
 {
   const minicl::ExactFloatingPoint environment;
   answer("calls to bodies", implementation_->slots.existing(), [&] { implementation_->move_to(ids, poses); });
+  note(implementation_->log, RecordedCall::move_to, ids, poses);
 }
 
 void World::add_impulses(std::span<const BodyId> ids, std::span<const Impulse> impulses)
 {
   const minicl::ExactFloatingPoint environment;
   answer("calls to bodies", implementation_->slots.existing(), [&] { implementation_->add_impulses(ids, impulses); });
+  note(implementation_->log, RecordedCall::add_impulses, ids, impulses);
 }
 
 void World::add_forces(std::span<const BodyId> ids, std::span<const Force> forces)
 {
   const minicl::ExactFloatingPoint environment;
   answer("calls to bodies", implementation_->slots.existing(), [&] { implementation_->add_forces(ids, forces); });
+  note(implementation_->log, RecordedCall::add_forces, ids, forces);
 }
 
 void World::run(Kernel kernel, std::span<const uint32_t> values, std::span<const Buffer> slots)
 {
   const minicl::ExactFloatingPoint environment;
   answer("a kernel", implementation_->slots.existing(), [&] { implementation_->run(kernel, values, slots); });
+  if (!implementation_->log) return;
+  std::vector<std::string> names;
+  for (const Buffer slot : slots) names.emplace_back(name_of(slot));
+  implementation_->log->put(RecordedCall::run, std::string(name_of(kernel)), values, names);
 }
 
 void World::write_bytes(Buffer buffer, const void *from, size_t bytes, size_t offset)
 {
   answer("a buffer", implementation_->slots.existing(), [&] { implementation_->write(buffer, from, bytes, offset); });
+  if (implementation_->log)
+    implementation_->log->put(RecordedCall::write, std::string(name_of(buffer)), uint64_t{offset},
+                              std::span(static_cast<const std::byte *>(from), bytes));
 }
 
 size_t World::buffer_bytes(Buffer buffer) const
@@ -345,12 +397,14 @@ uint64_t World::body_hash()
 
 uint64_t World::state_hash()
 {
-  const Implementation &world = *implementation_;
-  uint64_t hash = answer("the hash", world.slots.existing(), [&] {
-    implementation_->settle();
-    return hash_carried(implementation_->memory, world.buffers.carried(), world.bodies(), world.scene_features);
-  });
-  for (const Quarantine &taken : world.quarantined) hash = hash_bytes(&taken.body, sizeof taken.body, hash);
+  return answer("the hash", implementation_->slots.existing(), [&] { return implementation_->state_hash(); });
+}
+
+uint64_t World::Implementation::state_hash()
+{
+  settle();
+  uint64_t hash = hash_carried(memory, buffers.carried(), bodies(), scene_features);
+  for (const Quarantine &taken : quarantined) hash = hash_bytes(&taken.body, sizeof taken.body, hash);
   return hash;
 }
 

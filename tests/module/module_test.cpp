@@ -1,7 +1,14 @@
 /* A module beside the pipeline's (tests/module/probe_kernels.def): its kernels run at every point, in every form and on
  * every backend, its buffers live as long as they say, and what does not fit is refused by name. */
 #include <algorithm>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <numeric>
+
+#include <fmt/format.h>
+#include <unistd.h>
 
 #include <tandem/compare.h>
 #include <tandem/load_scene.h>
@@ -236,6 +243,28 @@ TEST_CASE("module: a snapshot holds what its buffers hold, and asks for the modu
   world.restore(snapshot);
   world.step();
   CHECK(world.read<uint32_t>(probe::buffer::probe_age()) == std::vector<uint32_t>(5, 4));
+}
+
+TEST_CASE("module: what is written to its buffers and run between steps is in a recording")
+{
+  const std::string path = std::filesystem::temp_directory_path() / fmt::format("tandem-module-{}.tandem", getpid());
+  World world(balls(5), with(pushing(1)), {"tbb", {}});
+  world.start_recording(path);
+  for (int i = 0; i < 4; ++i) {
+    world.write<float>(probe::buffer::probe_force(), std::vector<float>{0.1f * static_cast<float>(i), 0, 0, 0});
+    if (i == 2) world.run(probe::kernel::probe_turn_back());
+    world.step();
+  }
+  world.stop_recording();
+  std::ifstream file(path, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  std::filesystem::remove(path);
+  std::vector<std::byte> bytes(text.size());
+  std::memcpy(bytes.data(), text.data(), text.size());
+  const WorldRecording recording(std::move(bytes), "F.tandem");
+  World again(recording.snapshot(), {"serial", {}}, {pushing(1)});
+  CHECK_FALSE(replay(recording, again, {}));
+  CHECK(again.state_hash() == world.state_hash());
 }
 
 TEST_CASE("module: a buffer of any size keeps what it had where there is no room for more, and grows else")

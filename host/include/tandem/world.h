@@ -25,6 +25,7 @@
 #include <tandem/export.h>
 #include <tandem/features.h>
 #include <tandem/queries.h>
+#include <tandem/recording.h>
 #include <tandem/scene.h>
 #include <tandem/settings.h>
 
@@ -102,6 +103,14 @@ public:
    * that scene(), settings(), memory() and others returned before become invalid. If it throws (as the constructor
    * does), the world is unchanged. */
   void restore(std::span<const std::byte> snapshot);
+
+  /* Writes from now on what is done with this world to a file: a snapshot, each call with its arguments, and a hash a
+   * step (<tandem/recording.h>). Placements, queries and other reading are not part of it. States that were kept before
+   * are forgotten. The file is complete up to the last step at any time, in case the program ends without
+   * stop_recording. Throws InputError if the file cannot be written. If writing fails later, the world goes on, and
+   * stop_recording throws InputError. A world records to one file at a time; a second call ends the first recording. */
+  void start_recording(const std::string &path, const RecordingOptions &options = {});
+  void stop_recording(); /* does nothing unless the world records */
 
   /* --- the last states ---
    * They stay in the memory of the devices that made them, so that keeping one costs a copy there and nothing goes
