@@ -276,6 +276,17 @@ void stage_child_properties(StagedUploads &uploads, const Scene &scene, uint32_t
   properties.stage(uploads, first_child);
 }
 
+void stage_fixed_rows(StagedUploads &uploads, const Scene &scene, const HullNumbers &hulls, uint32_t body,
+                      uint32_t index, BodyStatus status)
+{
+  MassRows masses;
+  ShapeRows shapes(scene, hulls);
+  masses.add(scene, scene.bodies[body]);
+  shapes.add(shape_of_body(scene, scene.bodies[body]), status);
+  uploads.add(Buffer::body_mass, std::move(masses.mass), index);
+  shapes.stage(uploads, index);
+}
+
 void stage_states(StagedUploads &uploads, const Scene &scene, std::span<const uint32_t> bodies, uint32_t first)
 {
   StateRows states;

@@ -38,6 +38,9 @@ void stage_properties(StagedUploads &uploads, const Scene &scene, std::span<cons
                       const std::vector<BodyStatus> &status);
 void stage_child_properties(StagedUploads &uploads, const Scene &scene, uint32_t body, uint32_t first_child,
                             const std::vector<BodyStatus> &status);
+/* Stages what a call wrote of a body and no step changes, but for the row of its tree. */
+void stage_fixed_rows(StagedUploads &uploads, const Scene &scene, const HullNumbers &hulls, uint32_t body,
+                      uint32_t index, BodyStatus status);
 /* Stages the initial state of bodies, to the indices from `first` on. */
 void stage_states(StagedUploads &uploads, const Scene &scene, std::span<const uint32_t> bodies, uint32_t first);
 /* Makes slots free: points at rest that take part in nothing, where the bodies were. */
