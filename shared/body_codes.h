@@ -24,6 +24,9 @@ enum {
 /* A quarantined body has been taken out of the simulation, because its state stopped being finite. */
 enum { BODY_TYPE_FIXED = 0, BODY_TYPE_KINEMATIC = 1, BODY_TYPE_DYNAMIC = 2, BODY_TYPE_QUARANTINED = 3 };
 
+/* body_lock: locked linear axes of the world, and three bits further the locked angular ones. */
+enum { LOCK_X = 1, LOCK_Y = 2, LOCK_Z = 4, LOCK_ANGULAR_SHIFT = 3 };
+
 /* A trigger is found and reported in its pairs, and is never solved. */
 enum { BODY_FLAG_TRIGGER = 1 << 5 };
 /* The body collides along its path through the step: narrowphase/conservative_advancement.h. */

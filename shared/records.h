@@ -5,6 +5,7 @@
 #include "shared/body_codes.h"
 #include "shared/counts.h"
 #include "shared/features.h"
+#include "shared/locks.h"
 #include "shared/math.h"
 #include "shared/parameters.h"
 
@@ -139,6 +140,14 @@ SHARED symmetric3 load_inertia(GLOBAL const float4 *inertia, uint_lanes body)
 {
   vec4 first = load_float4(inertia, body * 2u), second = load_float4(inertia, body * 2u + 1u);
   symmetric3 s = {first.x, first.y, first.z, first.w, second.x, second.y};
+  return s;
+}
+/* The seventh number holds the locked linear axes. */
+SHARED symmetric3 load_inertia_and_locks(GLOBAL const float4 *inertia, uint_lanes body, real *locks)
+{
+  vec4 first = load_float4(inertia, body * 2u), second = load_float4(inertia, body * 2u + 1u);
+  symmetric3 s = {first.x, first.y, first.z, first.w, second.x, second.y};
+  *locks = MAY_OCCUR(LOCKS) ? second.z : R(0.0);
   return s;
 }
 SHARED void store_inertia(GLOBAL float4 *inertia, uint_lanes body, symmetric3 s)

@@ -31,6 +31,7 @@ public:
     run(Kernel::begin_step);
     if (plan().sleepers && plan().other_sleepers) list_sleepers(*this);
     run(Kernel::prepare_bodies);
+    if (has(FEATURE_LOCKS)) run(Kernel::lock_bodies);
     run_extensions(StepPoint::begin);
     find_pairs();
     if (has(FEATURE_TREES)) find_leaf_pairs();

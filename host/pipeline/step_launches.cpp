@@ -64,11 +64,13 @@ void StepLaunches::begin_substep(uint32_t substep)
   run_extensions(StepPoint::forces);
   if (plan_.forces) run(Kernel::apply_forces);
   run(Kernel::integrate_velocities);
+  if (has(FEATURE_MAX_SPEED)) run(Kernel::clamp_speeds);
 }
 
 void StepLaunches::move_bodies()
 {
   run(Kernel::integrate_positions);
+  if (has(FEATURE_LOCKS) && has(FEATURE_GYROSCOPIC)) run(Kernel::lock_bodies);
   if (plan_.forces) run(Kernel::follow_forces);
 }
 

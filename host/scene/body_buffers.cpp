@@ -71,10 +71,36 @@ uint32_t as_absent(uint32_t flags) { return (flags & ~(3u << 3)) | uint32_t{BODY
 /* A slot without a body: a point that takes part in nothing. */
 constexpr uint32_t flags_of_free_slot = uint32_t{BODY_TYPE_QUARANTINED} << 3 | uint32_t{SHAPE_SPHERE};
 
+/* The rows of consecutive shapes that depend on properties of their bodies. */
+class PropertyRows {
+public:
+  explicit PropertyRows(const Scene &scene) : scene_(scene) {}
+
+  void add(const PlacedShape &placed, BodyStatus status)
+  {
+    const uint32_t flags = flags_of(scene_, placed);
+    flags_.push_back(status == BodyStatus::free          ? flags_of_free_slot
+                     : status == BodyStatus::quarantined ? as_absent(flags)
+                                                         : flags);
+    filters_.insert(filters_.end(), {placed.filter.group, placed.filter.mask});
+  }
+
+  /* The flags come last, because they decide whether a body takes part. */
+  void stage(StagedUploads &uploads, size_t first)
+  {
+    uploads.add(Buffer::body_filter, std::move(filters_), first);
+    uploads.add(Buffer::body_flags, std::move(flags_), first);
+  }
+
+private:
+  const Scene &scene_;
+  std::vector<uint32_t> flags_, filters_;
+};
+
 /* The rows of consecutive shapes in the buffers of capacity SHAPES. */
 class ShapeRows {
 public:
-  ShapeRows(const Scene &scene, const HullNumbers &hulls) : scene_(scene), hulls_(hulls) {}
+  ShapeRows(const Scene &scene, const HullNumbers &hulls) : properties_(scene), hulls_(hulls) {}
 
   void add(const PlacedShape &placed, BodyStatus status)
   {
@@ -84,34 +110,28 @@ public:
     const ShapeBox box = shape.type == ShapeType::half_space || is_free
                              ? ShapeBox{}
                              : box_around(shape, placed.position, placed.orientation);
-    const uint32_t flags = flags_of(scene_, placed);
+    properties_.add(placed, status);
     sizes_.push_back(is_free ? float4{0, 0, 0, 0} : float4_of_vec(kernel_size(shape), placed.radius));
-    flags_.push_back(is_free ? flags_of_free_slot : status == BodyStatus::quarantined ? as_absent(flags) : flags);
-    filters_.insert(filters_.end(), {placed.filter.group, placed.filter.mask});
     convexes_.insert(convexes_.end(),
                      {static_cast<uint32_t>(shape.type), shape.hull ? hulls_.at(shape.hull.get()) : 0});
     poses_.insert(poses_.end(), {float4_of_vec(placed.position, 0), float4{q[0], q[1], q[2], q[3]},
                                  float4_of_vec(box.center, 0), float4_of_vec(box.half_extents, 0)});
   }
 
-  /* The flags come last, because they decide whether a body takes part. */
   void stage(StagedUploads &uploads, size_t first)
   {
     uploads.add(Buffer::body_shape, std::move(sizes_), first);
-    uploads.add(Buffer::body_filter, std::move(filters_), first);
     uploads.add(Buffer::body_convex, std::move(convexes_), first);
     uploads.add(Buffer::body_shape_pose, std::move(poses_), first);
-    uploads.add(Buffer::body_flags, std::move(flags_), first);
+    properties_.stage(uploads, first);
   }
 
 private:
-  const Scene &scene_;
+  PropertyRows properties_;
   const HullNumbers &hulls_;
   std::vector<float4> sizes_, poses_;
-  std::vector<uint32_t> flags_, filters_, convexes_;
+  std::vector<uint32_t> convexes_;
 };
-
-float inverse_mass_of(const Body &body) { return body.type == BodyType::dynamic ? 1.0f / body.mass : 0.0f; }
 
 Vec3 velocity_of(const Body &body, const Vec3 &velocity)
 {
@@ -119,6 +139,8 @@ Vec3 velocity_of(const Body &body, const Vec3 &velocity)
 }
 
 } // namespace
+
+float inverse_mass_of(const Body &body) { return body.type == BodyType::dynamic ? 1.0f / body.mass : 0.0f; }
 
 std::array<float4, 2> double_float3_of(const Point &p)
 {
@@ -141,11 +163,21 @@ namespace {
 
 struct MassRows {
   std::vector<float4> mass;
+  std::vector<uint32_t> locks;
+  std::vector<float> speeds;
 
   void add(const Scene &scene, const Body &body)
   {
     mass.push_back(float4_of_vec(inverse_inertia_of(scene, body), body.gravity_factor));
     mass.push_back({body.linear_damping, body.angular_damping, 0, 0});
+    locks.push_back(locks_of(body));
+    speeds.insert(speeds.end(), {body.max_linear_speed, body.max_angular_speed});
+  }
+  void stage(StagedUploads &uploads, size_t first)
+  {
+    uploads.add(Buffer::body_mass, std::move(mass), first);
+    uploads.add(Buffer::body_lock, std::move(locks), first);
+    uploads.add(Buffer::body_max_speed, std::move(speeds), first);
   }
 };
 
@@ -183,11 +215,11 @@ void stage_masses(StagedUploads &uploads, const Scene &scene, const std::vector<
 {
   MassRows rows;
   for (const uint32_t body : order) rows.add(scene, scene.bodies[body]);
-  uploads.add(Buffer::body_mass, std::move(rows.mass));
+  rows.stage(uploads, 0);
 }
 
 void stage_shapes(StagedUploads &uploads, const Scene &scene, const std::vector<uint32_t> &order, uint32_t first_child,
-                   const std::vector<BodyStatus> &status)
+                  const std::vector<BodyStatus> &status)
 {
   const HullNumbers hulls = hull_numbers(scene);
   ShapeRows bodies(scene, hulls), children(scene, hulls);
@@ -203,8 +235,8 @@ void stage_shapes(StagedUploads &uploads, const Scene &scene, const std::vector<
   bodies.stage(uploads, 0);
 }
 
-void stage_new_bodies(StagedUploads &uploads, const Scene &scene, const HullNumbers &hulls, std::span<const uint32_t> bodies,
-                       uint32_t first)
+void stage_new_bodies(StagedUploads &uploads, const Scene &scene, const HullNumbers &hulls,
+                      std::span<const uint32_t> bodies, uint32_t first)
 {
   MassRows masses;
   StateRows states;
@@ -215,11 +247,44 @@ void stage_new_bodies(StagedUploads &uploads, const Scene &scene, const HullNumb
     states.add(body);
     shapes.add(shape_of_body(scene, body), BodyStatus::present);
   }
-  uploads.add(Buffer::body_mass, std::move(masses.mass), first);
+  masses.stage(uploads, first);
   uploads.add(Buffer::body_force, std::vector<float4>(2 * bodies.size()), first);
   uploads.add(Buffer::body_tree, std::vector<uint32_t>(2 * bodies.size(), INDEX_NONE), first);
   states.stage(uploads, first);
   shapes.stage(uploads, first);
+}
+
+void stage_properties(StagedUploads &uploads, const Scene &scene, std::span<const uint32_t> bodies, uint32_t first,
+                      const std::vector<BodyStatus> &status)
+{
+  MassRows masses;
+  PropertyRows properties(scene);
+  for (const uint32_t index : bodies) {
+    masses.add(scene, scene.bodies[index]);
+    properties.add(shape_of_body(scene, scene.bodies[index]), status_of(status, index));
+  }
+  masses.stage(uploads, first);
+  properties.stage(uploads, first);
+}
+
+void stage_child_properties(StagedUploads &uploads, const Scene &scene, uint32_t body, uint32_t first_child,
+                            const std::vector<BodyStatus> &status)
+{
+  PropertyRows properties(scene);
+  for (const Child &child : scene.shapes[scene.bodies[body].shape].compound->children)
+    properties.add(shape_of_child(scene.bodies[body], child), status_of(status, body));
+  properties.stage(uploads, first_child);
+}
+
+void stage_fixed_rows(StagedUploads &uploads, const Scene &scene, const HullNumbers &hulls, uint32_t body,
+                      uint32_t index, BodyStatus status)
+{
+  MassRows masses;
+  ShapeRows shapes(scene, hulls);
+  masses.add(scene, scene.bodies[body]);
+  shapes.add(shape_of_body(scene, scene.bodies[body]), status);
+  uploads.add(Buffer::body_mass, std::move(masses.mass), index);
+  shapes.stage(uploads, index);
 }
 
 void stage_states(StagedUploads &uploads, const Scene &scene, std::span<const uint32_t> bodies, uint32_t first)
@@ -319,8 +384,7 @@ std::vector<BodyState> download_bodies(Memory &memory, const std::vector<uint32_
              orientation = memory.read<float4>(Buffer::body_orientation, n);
   const auto velocity = memory.read<float4>(Buffer::body_velocity, 2 * n);
   std::vector<BodyState> states(n);
-  for (size_t i = 0; i < n; ++i)
-    states[order[i]] = state_of(&position[2 * i], orientation[i], &velocity[2 * i]);
+  for (size_t i = 0; i < n; ++i) states[order[i]] = state_of(&position[2 * i], orientation[i], &velocity[2 * i]);
   return states;
 }
 

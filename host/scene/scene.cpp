@@ -58,6 +58,10 @@ struct Checker {
     /* The solver computes 1/x, which must not overflow. */
     if (!std::isfinite(1.0f / x)) fail(fmt::format("{} is {}, too small: its inverse is not a finite float", field, x));
   }
+  void speed(const char *field, float x) const
+  {
+    if (!(x > 0)) fail(fmt::format("{} is {}; a number above 0 is needed, or infinity for none", field, x));
+  }
   template <class Real> void at_most(const char *field, Real x, Real limit) const
   {
     if (!(std::abs(x) <= limit))
@@ -238,6 +242,8 @@ void check_body(const Body &body, const Scene &scene, const Checker &check)
     check.fail(fmt::format("gravity_factor is {}; a finite number is needed", body.gravity_factor));
   check.at_least_zero("linear_damping", body.linear_damping);
   check.at_least_zero("angular_damping", body.angular_damping);
+  check.speed("max_linear_speed", body.max_linear_speed);
+  check.speed("max_angular_speed", body.max_angular_speed);
   if (!std::isfinite(body.mass)) check.fail(fmt::format("mass is {}; a finite number is needed", body.mass));
   check.finite_vector("inertia", body.inertia);
   const Shape &shape = scene.shapes[body.shape];

@@ -144,6 +144,13 @@ bool is_damped(const Body &body)
   return is_dynamic(body) && (body.linear_damping > 0 || body.angular_damping > 0);
 }
 
+bool is_locked(const Body &body) { return locks_of(body) != 0; }
+
+bool is_limited(const Body &body)
+{
+  return is_dynamic(body) && (std::isfinite(body.max_linear_speed) || std::isfinite(body.max_angular_speed));
+}
+
 bool meet(const Filter &a, const Filter &b) { return (a.group & b.mask) != 0 && (b.group & a.mask) != 0; }
 
 /* Visits the filters and materials of a body's shape, or of its children's. */
@@ -192,6 +199,8 @@ Features body_features(const Scene &scene)
     if (spins_unevenly(scene, body)) features |= FEATURE_GYROSCOPIC;
     if (body.continuous) features |= FEATURE_CONTINUOUS;
     if (is_damped(body)) features |= FEATURE_DAMPING;
+    if (is_locked(body)) features |= FEATURE_LOCKS;
+    if (is_limited(body)) features |= FEATURE_MAX_SPEED;
   }
   if (filters(scene)) features |= FEATURE_FILTER;
   if (has_triggers(scene)) features |= FEATURE_TRIGGER;
@@ -273,6 +282,14 @@ Vec3 inverse_inertia_of(const Scene &scene, const Body &body)
   return inverse;
 }
 
+uint32_t locks_of(const Body &body)
+{
+  const auto bits = [](const Axes &axes) {
+    return (axes.x ? uint32_t{LOCK_X} : 0u) | (axes.y ? uint32_t{LOCK_Y} : 0u) | (axes.z ? uint32_t{LOCK_Z} : 0u);
+  };
+  return is_dynamic(body) ? bits(body.linear_locks) | bits(body.angular_locks) << LOCK_ANGULAR_SHIFT : 0u;
+}
+
 Features all_features()
 {
   Features all = 0;
@@ -287,8 +304,18 @@ bool is_large(const Scene &scene, const Body &body, float median)
 
 BodyKind kind_of(const Scene &scene, const Body &body)
 {
-  return {body.shape,   body.material,   body.filter_group, body.filter_mask,            body.type,
-          body.trigger, body.continuous, is_posed(body),    spins_unevenly(scene, body), is_damped(body)};
+  return {body.shape,
+          body.material,
+          body.filter_group,
+          body.filter_mask,
+          body.type,
+          body.trigger,
+          body.continuous,
+          is_posed(body),
+          spins_unevenly(scene, body),
+          is_damped(body),
+          is_locked(body),
+          is_limited(body)};
 }
 
 Features features_of(const Scene &scene, const Settings &settings)

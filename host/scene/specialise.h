@@ -43,7 +43,7 @@ Features features_of(const Scene &scene, const Settings &settings);
 struct BodyKind {
   uint32_t shape, material, filter_group, filter_mask;
   BodyType type;
-  bool trigger, continuous, posed, uneven, damped;
+  bool trigger, continuous, posed, uneven, damped, locked, limited;
   auto operator<=>(const BodyKind &) const = default;
 };
 BodyKind kind_of(const Scene &scene, const Body &body);
@@ -72,6 +72,9 @@ struct Filter {
 Filter filter_of(const Body &body, const Child &child);
 /* Of a compound, the union of its children's filters. */
 Filter filter_of(const Scene &scene, const Body &body);
+
+/* The content of body_lock: LOCK_ bits of body_codes.h; 0 unless the body is dynamic. */
+uint32_t locks_of(const Body &body);
 
 /* The inverse principal moments, from the body's own moments or from its shape and mass; 0 if it cannot rotate. */
 TANDEM_API Vec3 inverse_inertia_of(const Scene &scene, const Body &body);

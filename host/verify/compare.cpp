@@ -84,6 +84,7 @@ std::unique_ptr<World> Lockstep::make_world(size_t index) const
 {
   Placement placement = request_.placement;
   placement.on = request_.backends[index];
+  if (!request_.snapshot.empty()) return std::make_unique<World>(request_.snapshot, placement);
   return std::make_unique<World>(scene_, request_.settings, placement);
 }
 

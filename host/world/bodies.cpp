@@ -24,6 +24,7 @@
 #include "host/runtime/interface/floating_point.h"
 #include "host/runtime/interface/module.h"
 #include "host/world/implementation.h"
+#include "host/world/placed_bodies.h"
 #include "host/world/reordered_rows.h"
 
 namespace tandem {
@@ -35,6 +36,7 @@ struct World::Implementation::Arrival {
   std::vector<uint32_t> slots;                         /* of the new bodies, in their order */
   std::array<size_t, regions> again{};                 /* how many free slots of each region are used */
   std::array<std::vector<uint32_t>, regions> appended; /* new slots, by region */
+  std::vector<uint32_t> restated;                      /* slots of old bodies whose state is that of the scene */
   float median = 0;
   bool grows = false; /* beyond the present room */
 
@@ -57,42 +59,16 @@ template <class Work> void for_each_run(std::span<const uint32_t> sorted, const 
   }
 }
 
-/* Puts bodies into a scene, and takes them out again unless they are kept. */
-class AddedBodies {
-public:
-  AddedBodies(Scene &scene, std::span<const uint32_t> slots, std::span<const Body> bodies)
-      : scene_(scene), count_(scene.bodies.size())
-  {
-    replaced_.reserve(bodies.size());
-    scene.bodies.reserve(count_ + bodies.size());
-    for (size_t i = 0; i < bodies.size(); ++i) put(slots[i], bodies[i]);
-  }
-  ~AddedBodies()
-  {
-    if (kept_) return;
-    for (auto one = replaced_.rbegin(); one != replaced_.rend(); ++one)
-      std::swap(scene_.bodies[one->first], one->second);
-    scene_.bodies.resize(count_);
-  }
-  AddedBodies(const AddedBodies &) = delete;
-  AddedBodies &operator=(const AddedBodies &) = delete;
-  void keep() noexcept { kept_ = true; }
-
-private:
-  void put(uint32_t slot, Body body)
-  {
-    if (slot >= scene_.bodies.size()) return scene_.bodies.push_back(std::move(body));
-    replaced_.emplace_back(slot, std::move(body));
-    std::swap(scene_.bodies[slot], replaced_.back().second);
-  }
-
-  Scene &scene_;
-  size_t count_;
-  std::vector<std::pair<uint32_t, Body>> replaced_;
-  bool kept_ = false;
-};
-
 bool has_tree(const Shape &shape) { return shape.mesh || shape.compound; }
+
+/* The bodies in the order of the buffers; those that sleep are the last. */
+struct BodyOrder {
+  std::vector<uint32_t> all;
+  uint32_t awake_count;
+
+  std::vector<uint32_t> awake() const { return {all.begin(), all.begin() + awake_count}; }
+  size_t sleepers() const { return all.size() - awake_count; }
+};
 
 /* Stages a buffer that follows the bodies in their new order. */
 void stage_reordered(StagedUploads &uploads, Memory &memory, const ReorderedRows &rows, Buffer buffer)
@@ -102,19 +78,24 @@ void stage_reordered(StagedUploads &uploads, Memory &memory, const ReorderedRows
   if (row_of(buffer).capacity == Capacity::BODIES_PLUS_ONE) uploads.add(buffer, rows.starts_of(memory, buffer));
 }
 
-/* All contents that follow the bodies: what steps carry over, and what modules keep by body. */
+/* All contents that follow the bodies: what steps carry over, and what modules keep by body. The contact cache has rows
+ * of the bodies that are awake alone, which are the first ones; steps leave the rows of sleepers on both sides. */
 void stage_carried_rows(StagedUploads &uploads, Memory &memory, const StepBuffers &buffers,
-                        const std::vector<uint32_t> &old_order, const std::vector<uint32_t> &new_order)
+                        const BodyOrder &old_order, const BodyOrder &new_order)
 {
-  const ReorderedRows rows(old_order, new_order);
-  for (const CarriedBuffer &carried : buffers.carried()) stage_reordered(uploads, memory, rows, carried.now);
+  const ReorderedRows rows(old_order.all, new_order.all), awake_rows(old_order.awake(), new_order.awake());
+  for (const CarriedBuffer &carried : buffers.carried()) {
+    const bool by_body = row_of(carried.now).capacity == Capacity::BODIES;
+    stage_reordered(uploads, memory, by_body ? rows : awake_rows, carried.now);
+    if (by_body && old_order.sleepers() > 0 && memory.bytes(carried.now) > 0)
+      uploads.add(carried.previous, rows.rows_of(memory, carried.now));
+  }
   for (size_t i = buffer_count; i < buffers.needs().touched.size(); ++i) {
     const Lifetime lifetime = row_of(buffer_at(i)).lifetime;
-    if (lifetime == Lifetime::SCENE || lifetime == Lifetime::KEPT)
-      stage_reordered(uploads, memory, rows, buffer_at(i));
+    if (lifetime == Lifetime::SCENE || lifetime == Lifetime::KEPT) stage_reordered(uploads, memory, rows, buffer_at(i));
   }
-  const auto pairs = memory.read<uint32_t>(Buffer::cached_start, 1, old_order.size()).front();
-  uploads.add(Buffer::cached_b, rows.indices_of(memory, Buffer::cached_b, pairs));
+  const auto pairs = memory.read<uint32_t>(Buffer::cached_start, 1, old_order.awake_count).front();
+  uploads.add(Buffer::cached_b, awake_rows.indices_of(memory, Buffer::cached_b, pairs));
 }
 
 } // namespace
@@ -170,7 +151,10 @@ void World::Implementation::check_new(std::span<const Body> given) const
   if (given.size() + slots.count() >= body_numbers)
     throw InputError(fmt::format("create_bodies: {} bodies and {} more; kernels can number {}", slots.count(),
                                  given.size(), body_numbers - 1));
-  for (size_t i = 0; i < given.size(); ++i) validate(scene, given[i], i, "create_bodies");
+  for (size_t i = 0; i < given.size(); ++i) {
+    validate(scene, given[i], i, "create_bodies");
+    check_solver(settings, given[i], i, "create_bodies");
+  }
 }
 
 /* New slots are numbered in the order of the call. */
@@ -207,18 +191,37 @@ World::Implementation::Arrival World::Implementation::arrival_of(std::span<const
   return arrival;
 }
 
+/* The kinds of all bodies that exist, and of those in these slots. */
+void World::Implementation::note_kinds(std::span<const uint32_t> slots_of_bodies)
+{
+  known_kinds.clear();
+  for (uint32_t slot = 0; slot < slots.count(); ++slot)
+    if (slots.exists(slot)) known_kinds.insert(kind_of(scene, scene.bodies[slot]));
+  for (const uint32_t slot : slots_of_bodies) known_kinds.insert(kind_of(scene, scene.bodies[slot]));
+}
+
+/* True if bodies, which stand in the scene already, bring a feature or a material that the tables lack. Features follow
+ * from kinds that are in the scene together, so a new kind makes the list of known ones anew. */
+bool World::Implementation::brings_features(std::span<const uint32_t> slots_of_bodies)
+{
+  const auto is_known = [&](uint32_t slot) { return known_kinds.contains(kind_of(scene, scene.bodies[slot])); };
+  const auto has_new_material = [&](uint32_t slot) { return scene.bodies[slot].material >= uploaded_materials; };
+  bool brings = std::any_of(slots_of_bodies.begin(), slots_of_bodies.end(), has_new_material);
+  if (!std::all_of(slots_of_bodies.begin(), slots_of_bodies.end(), is_known)) {
+    note_kinds(slots_of_bodies);
+    brings = brings || (features_of(scene, settings) & ~scene_features) != 0;
+  }
+  return brings;
+}
+
 /* True if more than the rows of the bodies themselves must change. The bodies stand in the scene already. */
 bool World::Implementation::brings_tables(const Arrival &arrival)
 {
-  if (known_kinds.empty())
-    for (uint32_t slot = 0; slot < slots.count(); ++slot)
-      if (slots.exists(slot)) known_kinds.insert(kind_of(scene, scene.bodies[slot]));
-  bool brings = arrival.inserts() || bodies() + arrival.new_slots() > plan.bodies;
+  bool brings = brings_features(arrival.slots);
+  brings = brings || arrival.inserts() || bodies() + arrival.new_slots() > plan.bodies;
   for (const uint32_t slot : arrival.slots) {
     const Body &body = scene.bodies[slot];
-    const bool is_new = known_kinds.insert(kind_of(scene, body)).second;
-    brings = brings || is_new || body.shape >= uploaded_shapes || body.material >= uploaded_materials ||
-             has_tree(scene.shapes[body.shape]);
+    brings = brings || body.shape >= uploaded_shapes || has_tree(scene.shapes[body.shape]);
   }
   return brings;
 }
@@ -234,13 +237,16 @@ std::vector<BodyId> World::Implementation::create(std::span<const Body> given)
   slots.prepare_growth(arrival.new_slots());
   index_of_body.reserve(slots.count() + arrival.new_slots());
   special.order.reserve(bodies() + arrival.new_slots());
-  AddedBodies added(scene, arrival.slots, given);
+  std::vector<RosterChange> changes = changes_of(arrival);
+  std::string reason = "bodies were created that the buffers had no room or no tables for";
+  PlacedBodies added(scene, arrival.slots, given);
   try {
     if (brings_tables(arrival)) {
-      wake_all();
       lay_out_anew(arrival);
+      ring.forget(std::move(reason));
     } else {
       place_among_others(arrival);
+      ring.note(changes);
     }
   } catch (...) {
     known_kinds.clear(); /* some may be of these bodies alone */
@@ -253,6 +259,24 @@ std::vector<BodyId> World::Implementation::create(std::span<const Body> given)
     note_motion(arrival.slots[i], {given[i].linear_velocity, given[i].angular_velocity});
   }
   return ids;
+}
+
+/* For the states that the ring keeps: what the new bodies replace. */
+std::vector<RosterChange> World::Implementation::changes_of(const Arrival &arrival)
+{
+  std::vector<RosterChange> changes;
+  if (ring.size() == 0) return changes;
+  ring.prepare_changes(arrival.slots.size());
+  for (const uint32_t slot : arrival.slots) {
+    RosterChange &change = changes.emplace_back();
+    change.slot = slot;
+    if (slot >= scene.bodies.size()) continue;
+    change.before = scene.bodies[slot];
+    if (!has_tree(scene.shapes[change.before->shape]) || memory.bytes(Buffer::body_tree) == 0) continue;
+    const auto row = memory.read<uint32_t>(Buffer::body_tree, 2, 2 * size_t{index_of_body[slot]});
+    change.tree = {row[0], row[1]};
+  }
+  return changes;
 }
 
 /* Writes the rows of bodies that all fit between and behind the others. New ones are out of every kernel's range until
@@ -277,8 +301,7 @@ void World::Implementation::place_among_others(const Arrival &arrival)
   uploads.add(Buffer::cached_start, std::vector<uint32_t>(appended.size(), pairs), special.awake + size_t{1});
   const auto entries = entries_of({special.awake + static_cast<uint32_t>(appended.size()), special.unbounded,
                                    special.large, sleepers.count()});
-  for (const auto &[entry, value] : entries)
-    uploads.add_count(static_cast<uint32_t>(entry), value);
+  for (const auto &[entry, value] : entries) uploads.add_count(static_cast<uint32_t>(entry), value);
   uploads.prepare(memory);
   scene_entries = entries;
 
@@ -299,10 +322,10 @@ void World::Implementation::place_among_others(const Arrival &arrival)
 
 namespace {
 
-/* The order of the bodies with new ones at the end of their regions. */
+/* The order of the bodies with new ones at the end of their regions, and those asleep behind them. */
 std::vector<uint32_t> order_with(const Specialisation &special, const std::array<std::vector<uint32_t>, regions> &added)
 {
-  const std::array<size_t, regions + 1> ends{0, special.unbounded, special.large, special.order.size()};
+  const std::array<size_t, regions + 1> ends{0, special.unbounded, special.large, special.awake};
   std::vector<uint32_t> order;
   for (size_t region = 0; region < regions; ++region) {
     const auto first = special.order.begin();
@@ -310,6 +333,7 @@ std::vector<uint32_t> order_with(const Specialisation &special, const std::array
                  first + static_cast<ptrdiff_t>(ends[region + 1]));
     order.insert(order.end(), added[region].begin(), added[region].end());
   }
+  order.insert(order.end(), special.order.begin() + special.awake, special.order.end());
   return order;
 }
 
@@ -317,8 +341,7 @@ std::vector<uint32_t> order_with(const Specialisation &special, const std::array
 std::vector<float4> normals_of_pairs(Memory &memory, uint32_t bodies)
 {
   if (memory.bytes(Buffer::cached_normal) > 0) return {};
-  return memory.read<float4>(Buffer::manifold_normal,
-                             memory.read<uint32_t>(Buffer::cached_start, 1, bodies).front());
+  return memory.read<float4>(Buffer::manifold_normal, memory.read<uint32_t>(Buffer::cached_start, 1, bodies).front());
 }
 
 } // namespace
@@ -330,7 +353,7 @@ void World::Implementation::plan_layout(const Arrival &arrival, std::vector<uint
   special.unbounded += static_cast<uint32_t>(arrival.appended[0].size());
   special.large += static_cast<uint32_t>(arrival.appended[0].size() + arrival.appended[1].size());
   special.median = arrival.median;
-  special.awake = static_cast<uint32_t>(order.size());
+  special.awake = static_cast<uint32_t>(order.size()) - sleepers.count();
   special.features = settings.specialise ? needed : all_features();
   special.order = std::move(order);
   scene_features = needed;
@@ -339,18 +362,19 @@ void World::Implementation::plan_layout(const Arrival &arrival, std::vector<uint
   if (bodies() > plan.bodies) plan.bodies = std::max({bodies(), 2 * plan.bodies, least_room});
   plan.features = special.features;
   plan.capacity_cells = cells_for(plan.bodies);
-  scene_entries = entries_of({bodies(), special.unbounded, special.large});
-  counted_bodies = bodies();
+  scene_entries = entries_of({special.awake, special.unbounded, special.large, sleepers.count()});
+  counted_bodies = special.awake;
   record_kernels();
   backends.take_features(special.features, buffers.needs().kernels);
   buffers.changed();
   buffers.make_ready(sizes());
 }
 
-/* The states of the new bodies, in their places. */
+/* The states of the new bodies, in their places, and of those that a call has changed. */
 void World::Implementation::stage_arrival(StagedUploads &uploads, const Arrival &arrival) const
 {
-  const std::set<uint32_t> is_new(arrival.slots.begin(), arrival.slots.end());
+  std::set<uint32_t> is_new(arrival.slots.begin(), arrival.slots.end());
+  is_new.insert(arrival.restated.begin(), arrival.restated.end());
   for (uint32_t index = 0; index < bodies(); ++index)
     if (is_new.contains(special.order[index])) stage_states(uploads, scene, std::span(&special.order[index], 1), index);
 }
@@ -361,9 +385,11 @@ void World::Implementation::lay_out_anew(const Arrival &arrival)
   buffers.make_ready(sizes());
   const std::vector<uint32_t> old_order = special.order;
   std::vector<uint32_t> order = order_with(special, arrival.appended);
-  std::vector<float4> normals = normals_of_pairs(memory, special.awake);
+  std::vector<float4> normals = pairs_moved ? std::vector<float4>() : normals_of_pairs(memory, special.awake);
+  const std::vector<CarriedBuffer> old_pair_rows = pair_rows(buffers.needs().touched);
   StagedUploads uploads;
-  stage_carried_rows(uploads, memory, buffers, old_order, order);
+  stage_carried_rows(uploads, memory, buffers, {old_order, special.awake},
+                     {order, static_cast<uint32_t>(order.size()) - sleepers.count()});
   uploads.add(Buffer::cached_normal, std::move(normals));
   std::vector<uint32_t> order_before = arrival.inserts() && order_of_events.empty() ? old_order : order_of_events;
   LayoutBackup backup(*this);
@@ -384,6 +410,16 @@ void World::Implementation::lay_out_anew(const Arrival &arrival)
   uploads.write(memory);
   guess_counts();
   forget_kept(memory);
+  if (!sleepers.empty()) keep_sleeping(old_pair_rows);
+}
+
+/* The same bodies with other features or shapes. */
+void World::Implementation::lay_out_anew(std::span<const uint32_t> restated)
+{
+  Arrival nobody;
+  nobody.restated.assign(restated.begin(), restated.end());
+  nobody.median = special.median;
+  lay_out_anew(nobody);
 }
 
 std::vector<uint32_t> World::Implementation::distinct_indices(const char *call, std::span<const BodyId> ids) const
@@ -392,8 +428,7 @@ std::vector<uint32_t> World::Implementation::distinct_indices(const char *call, 
   for (const uint32_t slot : slots_of(call, ids)) indices.push_back(index_of_body[slot]);
   std::sort(indices.begin(), indices.end());
   const auto twice = std::adjacent_find(indices.begin(), indices.end());
-  if (twice != indices.end())
-    throw InputError(fmt::format("{}: body {} is given twice", call, special.order[*twice]));
+  if (twice != indices.end()) throw InputError(fmt::format("{}: body {} is given twice", call, special.order[*twice]));
   return indices;
 }
 
@@ -407,6 +442,7 @@ void World::Implementation::destroy(std::span<const BodyId> ids)
   buffers.make_ready(sizes());
   for (size_t region = 0; region < regions; ++region)
     slots.prepare_freeing(static_cast<BodyRegion>(region), indices.size());
+  ring.prepare_changes(indices.size());
   StagedUploads uploads;
   for_each_run(indices, [&](size_t first, size_t count) {
     stage_free_rows(uploads, indices[first], static_cast<uint32_t>(count));
@@ -419,7 +455,9 @@ void World::Implementation::destroy(std::span<const BodyId> ids)
     const uint32_t slot = special.order[index];
     if (scene.bodies[slot].type == BodyType::dynamic && slots.status()[slot] == BodyStatus::present) --awake_dynamics;
     moving_kinematics.erase(slot);
+    shapes.forget(slot);
     slots.free(slot, region_of(index), statistics.steps);
+    ring.note({slot, std::nullopt, std::nullopt});
   }
 }
 

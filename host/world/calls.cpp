@@ -52,8 +52,9 @@ void check_rotation(const char *call, size_t index, const Quat &q)
   double square = 0;
   for (const float x : q) square += double{x} * x;
   if (!(std::abs(square - 1) < 2e-3))
-    refuse_entry(call, index,
-           fmt::format("orientation is [{}, {}, {}, {}]; a quaternion of length 1 is needed", q[0], q[1], q[2], q[3]));
+    refuse_entry(
+        call, index,
+        fmt::format("orientation is [{}, {}, {}, {}]; a quaternion of length 1 is needed", q[0], q[1], q[2], q[3]));
 }
 
 void check(const char *call, size_t index, const Pose &pose)
@@ -91,8 +92,8 @@ void check(const char *call, size_t index, const Force &force)
 template <class Entry> void check_entries(const char *call, size_t ids, std::span<const Entry> entries)
 {
   if (ids != entries.size())
-    throw InputError(fmt::format("{}: {} handles and {} entries; one entry for each handle is needed", call, ids,
-                                 entries.size()));
+    throw InputError(
+        fmt::format("{}: {} handles and {} entries; one entry for each handle is needed", call, ids, entries.size()));
   for (size_t i = 0; i < entries.size(); ++i) check(call, i, entries[i]);
 }
 
@@ -203,7 +204,8 @@ void World::Implementation::move_to(std::span<const BodyId> ids, std::span<const
   check_entries("move_to", ids.size(), poses);
   for (size_t i = 0; i < ids.size(); ++i)
     if (scene.bodies[ids[i].index].type != BodyType::kinematic)
-      refuse_entry("move_to", i, fmt::format("body {} is not kinematic; set_states puts other bodies elsewhere", ids[i].index));
+      refuse_entry("move_to", i,
+                   fmt::format("body {} is not kinematic; set_states puts other bodies elsewhere", ids[i].index));
   commands.prepare(ids.size());
   for (size_t i = 0; i < ids.size(); ++i) {
     moving_kinematics.insert(called[i]);

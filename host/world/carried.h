@@ -28,8 +28,11 @@ struct BodyNumbers {
   uint32_t all, awake;
 };
 
-/* A hash of these buffers, as far as a scene of these features has them. If nobody sleeps, it is equal iff the next step
- * will be equal. */
+/* The number of items that the last step left; later ones are of older steps. pairs: in the contact cache. */
+size_t items_in_use(Memory &memory, Buffer buffer, BodyNumbers bodies, uint32_t pairs);
+
+/* A hash of these buffers, as far as a scene of these features has them. If nobody sleeps, it is equal iff the next
+ * step will be equal. */
 uint64_t hash_carried(Memory &memory, const std::vector<CarriedBuffer> &carried, BodyNumbers bodies, Features features);
 
 } // namespace tandem

@@ -1,8 +1,8 @@
 /* implementation.h - the contents of a world and the phases of a step, behind the interface of <tandem/world.h>.
  *
  * Members are declared in the order of their dependencies: backends outlive the memory that lies in their storage. The
- * functions are grouped by concern: making a world in implementation.cpp, steps in step_attempts.cpp, users' modules in
- * extensions.cpp.
+ * functions are grouped by concern: making a world in implementation.cpp, steps in step_attempts.cpp, calls to bodies
+ * in calls.cpp and properties.cpp, bodies that come and go in bodies.cpp, users' modules in extensions.cpp.
  */
 #pragma once
 
@@ -26,13 +26,18 @@
 #include "host/scene/specialise.h"
 #include "host/scene/tree_tables.h"
 #include "host/world/body_slots.h"
+#include "host/world/call_log.h"
 #include "host/world/commands.h"
 #include "host/world/placed_backends.h"
 #include "host/world/queries.h"
+#include "host/world/shape_slots.h"
 #include "host/world/sleepers.h"
+#include "host/world/state_ring.h"
 #include "host/world/step_buffers.h"
 
 namespace tandem {
+
+struct SnapshotContents;
 
 /* A body's index shares a word with the stage in which the body failed (COUNT_NONFINITE). */
 constexpr uint32_t body_numbers = 1u << 28;
@@ -40,12 +45,30 @@ constexpr uint32_t body_numbers = 1u << 28;
 /* The first capacity of pairs; a step that finds more runs again. */
 uint32_t first_capacity(const Scene &scene, const Settings &settings);
 
+/* Throws InputError if the body has locked axes and the solver holds none. */
+void check_solver(const Settings &settings, const Body &body, size_t index, const std::string &where);
+
 struct World::Implementation {
+  /* What a world begins with: a scene, or what a snapshot holds. */
+  struct Beginning {
+    Scene scene;
+    Settings settings;
+    Specialisation special; /* features: those that the scene needs */
+    BodySlots slots;
+    uint32_t room;  /* bodies that the buffers hold */
+    uint32_t pairs; /* the first capacity */
+    bool forces;
+  };
+  static Beginning beginning_of(const Scene &given, const Settings &chosen, const Placement &placement);
+
   Implementation(const Scene &given, const Settings &chosen, const Placement &placement);
+  /* shared: those of the world that this one is to replace, with their placement; null: none. */
+  Implementation(Beginning beginning, const Placement &placement, const PlacedBackends *shared = nullptr);
   ~Implementation(); /* waits, because running kernels still read buffers */
 
   /* --- making a world: implementation.cpp --------------------------------------------------------------------- */
   Sizes sizes() const;
+  Features features_run() const { return settings.specialise ? scene_features : all_features(); }
   void record_kernels();
   void place(const Placement &placement);
   void place_again(); /* if other kernels are needed than before */
@@ -64,7 +87,7 @@ struct World::Implementation {
     size_t quarantined;
   };
   void step();
-  void sleep_on() noexcept;
+  void sleep_on();
   void run_until_whole();
   void turn() noexcept;
   void turn_back() noexcept;
@@ -80,6 +103,35 @@ struct World::Implementation {
   void quarantine_from(uint32_t code);
   void quarantine(uint32_t index, uint32_t stage);
 
+  /* --- a world as bytes: snapshot.cpp ---------------------------------------------------------------------------- */
+  std::vector<std::byte> save();
+  void put_history(ByteWriter &writer) const;
+  void put_buffers(ByteWriter &writer);
+  bool is_saved(Buffer buffer) const;
+  /* old: the world that it replaces, whose backends it takes over; null: none. */
+  static std::unique_ptr<Implementation> restored(std::span<const std::byte> snapshot,
+                                                  std::vector<Extension> extensions, const Placement &placement,
+                                                  const Implementation *old);
+  void take_buffers(const SnapshotContents &contents);
+  void take_islands(const SnapshotContents &contents);
+
+  /* --- recordings: call_log.cpp ---------------------------------------------------------------------------------- */
+  void start_recording(const std::string &path, const RecordingOptions &options);
+  void log_step();
+  uint64_t state_hash();
+
+  /* --- the last states: state_ring.cpp --------------------------------------------------------------------------- */
+  void keep_states(uint32_t states, bool after_steps);
+  void keep_state();
+  void keep_state_of_step();
+  void go_back(uint32_t states);
+  void check_back(uint32_t states) const;
+  std::vector<std::pair<int, uint32_t>> entries_then(const KeptState &state) const;
+  void stage_roster(StagedUploads &uploads, const KeptState &state, std::span<const RosterChange> changes) const;
+  void take_roster(const KeptState &state, BodySlots &slots_then) noexcept;
+  void drop_forces();
+  Storage &storage_of(Buffer buffer);
+
   /* --- calls between two steps: calls.cpp ------------------------------------------------------------------------ */
   void settle();
   std::vector<uint32_t> slots_of(const char *call, std::span<const BodyId> ids) const;
@@ -91,6 +143,17 @@ struct World::Implementation {
   void add_impulses(std::span<const BodyId> ids, std::span<const Impulse> impulses);
   void add_forces(std::span<const BodyId> ids, std::span<const Force> forces);
   void use_forces();
+
+  /* --- properties that change: properties.cpp -------------------------------------------------------------------- */
+  void set_properties(std::span<const BodyId> ids, std::span<const BodyProperties> properties);
+  void write_properties(std::span<const uint32_t> slots);
+
+  /* --- shapes of bodies that come and go: shapes.cpp -------------------------------------------------------------- */
+  std::vector<ShapeId> shapes_of(const BodyId &id);
+  std::vector<ShapeId> add_shapes(std::span<const BodyId> ids, std::span<const Child> given);
+  void remove_shapes(std::span<const ShapeId> ids);
+  uint32_t own_shape(uint32_t slot, const std::set<uint32_t> &taken);
+  void give_parts(const char *call, const std::map<uint32_t, std::vector<Child>> &parts);
 
   /* --- bodies that come and go: bodies.cpp ----------------------------------------------------------------------- */
   struct Arrival;
@@ -109,12 +172,17 @@ struct World::Implementation {
   void check_new(std::span<const Body> bodies) const;
   Arrival arrival_of(std::span<const Body> bodies) const;
   bool brings_tables(const Arrival &arrival);
+  bool brings_features(std::span<const uint32_t> slots);
+  void note_kinds(std::span<const uint32_t> slots);
+  std::vector<RosterChange> changes_of(const Arrival &arrival);
   void place_among_others(const Arrival &arrival);
   void lay_out_anew(const Arrival &arrival);
+  void lay_out_anew(std::span<const uint32_t> restated = {}); /* bodies whose state the scene has */
   void plan_layout(const Arrival &arrival, std::vector<uint32_t> order);
   void stage_arrival(StagedUploads &uploads, const Arrival &arrival) const;
 
   /* --- islands that sleep: sleep.cpp ------------------------------------------------------------------------------ */
+  bool is_filled(const std::vector<bool> &touched, Buffer buffer) const;
   std::vector<BodyRows> body_rows(const std::vector<bool> &touched) const;
   std::vector<CarriedBuffer> pair_rows(const std::vector<bool> &touched) const;
   void note_sleep(Recorder &recorder) const;
@@ -122,6 +190,8 @@ struct World::Implementation {
   void count_bodies(uint32_t awake);
   void count_awake_bodies();
   void sleepers_changed();
+  void keep_sleeping(const std::vector<CarriedBuffer> &old_rows);
+  void recount_motion();
   void keep_order_of_events();
   void put_to_sleep();
   void take_fallen(const std::vector<uint32_t> &falls, const std::vector<uint32_t> &labels);
@@ -152,6 +222,8 @@ struct World::Implementation {
   Memory memory;
   StepBuffers buffers;
   BodySlots slots;
+  ShapeSlots shapes;
+  std::set<uint32_t> made_shapes; /* of the scene, for a body alone */
   PlacedLauncher launcher;
   StepPlan plan;
   std::vector<std::pair<int, uint32_t>> scene_entries; /* of counts */
@@ -166,18 +238,24 @@ struct World::Implementation {
   std::vector<uint32_t> index_of_body; /* by slot; for a free one, that of its last body */
   std::vector<uint32_t> order_of_events; /* the order that the last step had, if it has changed since; else empty */
   size_t uploaded_shapes = 0, uploaded_materials = 0; /* of the scene, that the tables hold */
-  std::set<BodyKind> known_kinds;                     /* of bodies; filled by the first call that creates some */
+  /* Kinds of bodies that were in the scene together when its features were last derived; filled by the first call that
+   * creates or changes some. */
+  std::set<BodyKind> known_kinds;
   CommandList commands, force_commands;               /* not applied yet */
   Sleepers sleepers;
   std::vector<SleepEvent> sleep_events, sleep_events_to_come; /* of the last step, and since it ended */
   std::vector<uint32_t> set_elsewhere; /* slots of the bodies that commands not applied yet put elsewhere */
   std::set<uint32_t> moving_kinematics; /* slots */
   uint32_t awake_dynamics = 0;
+  bool pairs_moved = false; /* cached pairs have other places than the pairs of the last step */
   uint32_t counted_bodies = 0; /* that kernels see: those awake, or for queries all */
   uint64_t quiet_state = 0;    /* the state that the last step left */
   std::vector<Quarantine> quarantined;
   std::optional<BatchFault> fault;
   Statistics statistics;
+  uint32_t cached_pairs = 0; /* in the contact cache, as cached_start says */
+  StateRing ring;
+  std::unique_ptr<CallLog> log; /* of the recording, if one is made */
 };
 
 } // namespace tandem

@@ -21,6 +21,7 @@
 #include "host/pipeline/broadphases/broadphase.h"
 #include "host/pipeline/scene_counts.h"
 #include "host/pipeline/sleeping.h"
+#include "host/scene/parameters.h"
 #include "host/world/implementation.h"
 
 namespace tandem {
@@ -38,7 +39,7 @@ bool is_symmetric(Buffer buffer)
   return buffer == Buffer::cached_color || buffer == Buffer::cached_touching;
 }
 
-/* The body buffers of the scene, of the state, and of modules, as far as they are touched. */
+/* The buffers of the scene and of modules that have a row for each body. */
 bool follows_bodies(Buffer buffer)
 {
   const BufferRow &row = row_of(buffer);
@@ -48,13 +49,20 @@ bool follows_bodies(Buffer buffer)
 
 } // namespace
 
+/* Kernels name buffers that only some features fill. */
+bool World::Implementation::is_filled(const std::vector<bool> &touched, Buffer buffer) const
+{
+  const Features feature = row_of(buffer).feature;
+  return touched[index_of(buffer)] && (feature == 0 || (feature & special.features) != 0);
+}
+
 std::vector<BodyRows> World::Implementation::body_rows(const std::vector<bool> &touched) const
 {
   std::vector<BodyRows> rows;
   for (size_t i = 0; i < touched.size(); ++i)
-    if (touched[i] && follows_bodies(buffer_at(i))) rows.push_back({buffer_at(i), {buffer_at(i)}});
+    if (is_filled(touched, buffer_at(i)) && follows_bodies(buffer_at(i))) rows.push_back({buffer_at(i), {buffer_at(i)}});
   for (const CarriedBuffer &carried : buffers.carried())
-    if (touched[index_of(carried.now)] && row_of(carried.now).capacity == Capacity::BODIES)
+    if (is_filled(touched, carried.now) && row_of(carried.now).capacity == Capacity::BODIES)
       rows.push_back({carried.now, {carried.now, carried.previous}});
   return rows;
 }
@@ -63,7 +71,7 @@ std::vector<CarriedBuffer> World::Implementation::pair_rows(const std::vector<bo
 {
   std::vector<CarriedBuffer> rows;
   for (const CarriedBuffer &carried : buffers.carried())
-    if (touched[index_of(carried.now)] && row_of(carried.now).capacity == Capacity::PAIRS) rows.push_back(carried);
+    if (is_filled(touched, carried.now) && row_of(carried.now).capacity == Capacity::PAIRS) rows.push_back(carried);
   return rows;
 }
 
@@ -111,8 +119,47 @@ void World::Implementation::sleepers_changed()
   plan.sleepers = !sleepers.empty();
   plan.other_sleepers = true;
   launcher.set_keeps_sleepers(plan.sleepers);
+  pairs_moved = true;
+  cached_pairs = memory.read<uint32_t>(Buffer::cached_start, 1, special.awake).front();
+  ring.forget("bodies fell asleep or woke");
   forget_kept(memory);
   ++state;
+}
+
+/* The buffers have been laid out anew. Pairs of sleepers have no values in buffers that were not there before. */
+void World::Implementation::keep_sleeping(const std::vector<CarriedBuffer> &old_rows)
+{
+  std::vector<Sleepers::Part> parts;
+  for (const CarriedBuffer &rows : pair_rows(buffers.needs().touched)) {
+    Sleepers::Part part{Sleepers::no_words, words_of(rows.now)};
+    size_t at = 0;
+    for (const CarriedBuffer &old : old_rows) {
+      if (old.now == rows.now) part.first = at;
+      at += words_of(old.now);
+    }
+    parts.push_back(part);
+  }
+  sleepers.rearrange(parts);
+  sleepers_changed();
+}
+
+/* What the host knows of motion, found anew: after a state has been put back. */
+void World::Implementation::recount_motion()
+{
+  awake_dynamics = 0;
+  moving_kinematics.clear();
+  for (uint32_t index = 0; index < bodies(); ++index) {
+    const uint32_t slot = special.order[index];
+    if (slots.status()[slot] != BodyStatus::present) continue;
+    if (scene.bodies[slot].type == BodyType::dynamic && index < special.awake) ++awake_dynamics;
+    if (scene.bodies[slot].type != BodyType::kinematic) continue;
+    const BodyState now = download_body(memory, index);
+    note_motion(slot, {now.linear_velocity, now.angular_velocity});
+  }
+  if (!settings.sleeping) return;
+  const uint32_t limit = parameters_of(scene, settings, special.features, special.median).sleep_steps;
+  const auto resting = memory.read<uint32_t>(Buffer::resting_steps, special.awake);
+  plan.drowsy = std::any_of(resting.begin(), resting.end(), [&](uint32_t steps) { return steps >= limit; });
 }
 
 void World::Implementation::keep_order_of_events()

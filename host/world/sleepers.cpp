@@ -68,6 +68,18 @@ std::vector<uint32_t> Sleepers::beside(uint32_t slot) const
   return found;
 }
 
+void Sleepers::rearrange(const std::vector<Part> &parts)
+{
+  for (auto &[number, island] : islands_)
+    for (SleepingPair &pair : island.pairs) {
+      std::vector<uint32_t> words;
+      for (const Part &part : parts)
+        if (part.first == no_words) words.insert(words.end(), part.words, 0u);
+        else words.insert(words.end(), &pair.words[part.first], &pair.words[part.first] + part.words);
+      pair.words = std::move(words);
+    }
+}
+
 uint64_t Sleepers::hash(uint64_t seed) const
 {
   for (const auto &[number, island] : islands_) {

@@ -40,6 +40,14 @@ public:
   uint32_t island_of(uint32_t slot) const { return island_of_.at(slot); }
   /* Islands with a cached pair with this body, which may be awake, in ascending order. */
   std::vector<uint32_t> beside(uint32_t slot) const;
+  /* The words of one buffer within those of a pair. */
+  static constexpr size_t no_words = static_cast<size_t>(-1);
+  struct Part {
+    size_t first; /* among the present words; no_words: zeros */
+    size_t words;
+  };
+  /* Gives all pairs these parts, one after another, in place of their words. */
+  void rearrange(const std::vector<Part> &parts);
   uint64_t hash(uint64_t seed) const; /* the seed if nobody sleeps */
 
 private:

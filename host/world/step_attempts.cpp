@@ -47,14 +47,16 @@ void World::Implementation::step()
   if (settings.sleeping) put_to_sleep();
   sleep_events = std::exchange(sleep_events_to_come, {});
   quiet_state = state;
+  keep_state_of_step();
 }
 
 /* A step in which nothing moves launches nothing. */
-void World::Implementation::sleep_on() noexcept
+void World::Implementation::sleep_on()
 {
   ++statistics.steps;
   idle = true;
   sleep_events.clear();
+  keep_state_of_step();
 }
 
 void World::Implementation::run_until_whole()
@@ -154,6 +156,8 @@ void World::Implementation::accept()
   taken_out.clear();
   order_of_events.clear();
   ++statistics.steps;
+  cached_pairs = plan.known[COUNT_PAIRS];
+  pairs_moved = false;
   plan.rounds = std::clamp<uint32_t>(plan.known[COUNT_ROUNDS] + 3, 4, most_rounds);
   plan.colors = std::min(plan.known[COUNT_COLORS] + 1, COLOR_LIMIT);
   if (plan.known[COUNT_COLORS] > COLOR_LIMIT) plan.colors = COLOR_LIMIT + 1;
@@ -239,12 +243,14 @@ void World::Implementation::quarantine(uint32_t index, uint32_t stage)
 {
   static const char *const stages[] = {"start", "solve", "integrate"};
   const uint32_t body = special.order[index];
+  ring.prepare_changes(1);
   quarantined.push_back({body, scene.bodies[body].name, stages[stage], statistics.steps});
   ++statistics.nonfinite;
   taken_out.emplace_back(index, tandem::read_body(memory, index)); /* first, so that it can be restored */
   quarantine_body(memory, index);
   slots.quarantine(body);
   --awake_dynamics; /* nothing else can stop being finite, as kinematic bodies have given velocities */
+  ring.note({body, std::nullopt, std::nullopt});
 }
 
 } // namespace tandem

@@ -35,6 +35,7 @@ World::World(const Scene &scene, const Settings &settings, const Placement &plac
     validate(scene, scene.name);
     validate(settings);
     check_numbers(scene);
+    for (size_t i = 0; i < scene.bodies.size(); ++i) check_solver(settings, scene.bodies[i], i, scene.name);
     implementation_ = std::make_unique<Implementation>(scene, settings, placement);
     for (const Extension &extension : settings.extensions)
       if (extension.prepare) extension.prepare(*this);
@@ -43,6 +44,13 @@ World::World(const Scene &scene, const Settings &settings, const Placement &plac
   } catch (const std::bad_alloc &) {
     throw OutOfMemory(told("out of memory for its tables and buffers"));
   }
+}
+
+World::World(std::span<const std::byte> snapshot, const Placement &placement, std::vector<Extension> extensions)
+{
+  implementation_ = naming_what_failed(
+      [&] { return fmt::format("out of memory: a world of a snapshot of {} bytes", snapshot.size()); },
+      [&] { return Implementation::restored(snapshot, std::move(extensions), placement, nullptr); });
 }
 
 namespace {
@@ -60,9 +68,23 @@ template <class Work> auto answer(const char *what, size_t bodies, Work work)
 
 } // namespace
 
+namespace {
+
+/* Writes a call that has succeeded, if a recording is made. */
+template <class... T> void note(const std::unique_ptr<CallLog> &log, RecordedCall call, const T &...fields)
+{
+  if (log) log->put(call, fields...);
+}
+
+} // namespace
+
 World::~World() = default;
 
-void World::step() { implementation_->step(); }
+void World::step()
+{
+  implementation_->step();
+  implementation_->log_step();
+}
 void World::place(const Placement &placement)
 {
   answer("the placement", implementation_->slots.existing(), [&] { implementation_->place(placement); });
@@ -77,6 +99,59 @@ Memory &World::memory() { return implementation_->memory; }
 Backend &World::backend_of(Kernel kernel) { return implementation_->backends.of(kernel); }
 uint32_t World::scene_body(uint32_t buffer_index) const { return implementation_->special.order.at(buffer_index); }
 void World::set_observer(Observer observer) { implementation_->launcher.set_observer(std::move(observer)); }
+
+std::vector<std::byte> World::save()
+{
+  return answer("a snapshot", implementation_->slots.existing(), [&] { return implementation_->save(); });
+}
+
+void World::restore(std::span<const std::byte> snapshot)
+{
+  try {
+    auto restored = naming_what_failed(
+        [&] { return fmt::format("out of memory: a world of a snapshot of {} bytes", snapshot.size()); },
+        [&] {
+          return Implementation::restored(snapshot, implementation_->settings.extensions, {}, implementation_.get());
+        });
+    restored->log = std::move(implementation_->log);
+    implementation_ = std::move(restored);
+  } catch (...) {
+    implementation_->backends.take_back();
+    throw;
+  }
+  note(implementation_->log, RecordedCall::restore, snapshot);
+}
+
+void World::start_recording(const std::string &path, const RecordingOptions &options)
+{
+  answer("a recording", implementation_->slots.existing(), [&] { implementation_->start_recording(path, options); });
+}
+
+void World::stop_recording()
+{
+  if (const std::unique_ptr<CallLog> log = std::move(implementation_->log)) log->finish();
+}
+
+void World::keep_states(uint32_t states, bool after_steps)
+{
+  answer("states to go back to", implementation_->slots.existing(),
+         [&] { implementation_->keep_states(states, after_steps); });
+  note(implementation_->log, RecordedCall::keep_states, states, after_steps);
+}
+
+void World::keep_state()
+{
+  answer("a state to go back to", implementation_->slots.existing(), [&] { implementation_->keep_state(); });
+  note(implementation_->log, RecordedCall::keep_state);
+}
+
+uint32_t World::states_kept() const { return static_cast<uint32_t>(implementation_->ring.kept()); }
+
+void World::go_back(uint32_t states)
+{
+  answer("a state to go back to", implementation_->slots.existing(), [&] { implementation_->go_back(states); });
+  note(implementation_->log, RecordedCall::go_back, states);
+}
 
 std::vector<BodyState> World::bodies()
 {
@@ -113,6 +188,7 @@ void World::set_body_unchecked(uint32_t body, const BodyState &state)
     implementation_->note_motion(body, {state.linear_velocity, state.angular_velocity});
     upload_body(implementation_->memory, implementation_->index_of_body.at(body), state);
   });
+  note(implementation_->log, RecordedCall::set_body, body, state);
 }
 
 BodyId World::id_of(uint32_t body) const
@@ -142,24 +218,72 @@ uint32_t World::body_count() const { return implementation_->slots.existing(); }
 
 std::vector<BodyId> World::create_bodies(std::span<const Body> bodies)
 {
-  return answer("new bodies", implementation_->slots.existing(), [&] { return implementation_->create(bodies); });
+  std::vector<BodyId> ids =
+      answer("new bodies", implementation_->slots.existing(), [&] { return implementation_->create(bodies); });
+  note(implementation_->log, RecordedCall::create_bodies, bodies, ids);
+  return ids;
 }
 
 void World::destroy_bodies(std::span<const BodyId> ids)
 {
   answer("the destruction of bodies", implementation_->slots.existing(), [&] { implementation_->destroy(ids); });
+  note(implementation_->log, RecordedCall::destroy_bodies, ids);
 }
 
 uint32_t World::add_shape(const Shape &shape)
 {
-  return answer("a shape", implementation_->slots.existing(), [&] { return implementation_->add_shape(shape); });
+  const uint32_t index =
+      answer("a shape", implementation_->slots.existing(), [&] { return implementation_->add_shape(shape); });
+  note(implementation_->log, RecordedCall::add_shape, shape, index);
+  return index;
 }
 
 uint32_t World::add_material(const Material &material)
 {
-  return answer("a material", implementation_->slots.existing(),
-                [&] { return implementation_->add_material(material); });
+  const uint32_t index =
+      answer("a material", implementation_->slots.existing(), [&] { return implementation_->add_material(material); });
+  note(implementation_->log, RecordedCall::add_material, material, index);
+  return index;
 }
+
+void World::set_properties(std::span<const BodyId> ids, std::span<const BodyProperties> properties)
+{
+  const minicl::ExactFloatingPoint environment;
+  answer("properties of bodies", implementation_->slots.existing(),
+         [&] { implementation_->set_properties(ids, properties); });
+  note(implementation_->log, RecordedCall::set_properties, ids, properties);
+}
+
+Body World::body_description(const BodyId &id) const
+{
+  return implementation_->scene.bodies[implementation_->slots.slot_of("body_description", id)];
+}
+
+std::vector<ShapeId> World::add_shapes(std::span<const BodyId> ids, std::span<const Child> shapes)
+{
+  const minicl::ExactFloatingPoint environment;
+  std::vector<ShapeId> added = answer("shapes of bodies", implementation_->slots.existing(),
+                                      [&] { return implementation_->add_shapes(ids, shapes); });
+  note(implementation_->log, RecordedCall::add_shapes, ids, shapes, added);
+  return added;
+}
+
+void World::remove_shapes(std::span<const ShapeId> ids)
+{
+  const minicl::ExactFloatingPoint environment;
+  answer("shapes of bodies", implementation_->slots.existing(), [&] { implementation_->remove_shapes(ids); });
+  note(implementation_->log, RecordedCall::remove_shapes, ids);
+}
+
+std::vector<ShapeId> World::shapes_of(const BodyId &id)
+{
+  std::vector<ShapeId> shapes =
+      answer("shapes of bodies", implementation_->slots.existing(), [&] { return implementation_->shapes_of(id); });
+  note(implementation_->log, RecordedCall::shapes_of, id); /* it makes handles */
+  return shapes;
+}
+
+BodyId World::body_of(const ShapeId &id) const { return implementation_->shapes.place_of("body_of", id).body; }
 
 std::vector<BodyState> World::read_bodies(std::span<const BodyId> ids)
 {
@@ -170,41 +294,53 @@ void World::set_states(std::span<const BodyId> ids, std::span<const BodyState> s
 {
   const minicl::ExactFloatingPoint environment;
   answer("calls to bodies", implementation_->slots.existing(), [&] { implementation_->set_states(ids, states); });
+  note(implementation_->log, RecordedCall::set_states, ids, states);
 }
 
 void World::set_velocities(std::span<const BodyId> ids, std::span<const Velocity> velocities)
 {
   answer("calls to bodies", implementation_->slots.existing(),
          [&] { implementation_->set_velocities(ids, velocities); });
+  note(implementation_->log, RecordedCall::set_velocities, ids, velocities);
 }
 
 void World::move_to(std::span<const BodyId> ids, std::span<const Pose> poses)
 {
   const minicl::ExactFloatingPoint environment;
   answer("calls to bodies", implementation_->slots.existing(), [&] { implementation_->move_to(ids, poses); });
+  note(implementation_->log, RecordedCall::move_to, ids, poses);
 }
 
 void World::add_impulses(std::span<const BodyId> ids, std::span<const Impulse> impulses)
 {
   const minicl::ExactFloatingPoint environment;
   answer("calls to bodies", implementation_->slots.existing(), [&] { implementation_->add_impulses(ids, impulses); });
+  note(implementation_->log, RecordedCall::add_impulses, ids, impulses);
 }
 
 void World::add_forces(std::span<const BodyId> ids, std::span<const Force> forces)
 {
   const minicl::ExactFloatingPoint environment;
   answer("calls to bodies", implementation_->slots.existing(), [&] { implementation_->add_forces(ids, forces); });
+  note(implementation_->log, RecordedCall::add_forces, ids, forces);
 }
 
 void World::run(Kernel kernel, std::span<const uint32_t> values, std::span<const Buffer> slots)
 {
   const minicl::ExactFloatingPoint environment;
   answer("a kernel", implementation_->slots.existing(), [&] { implementation_->run(kernel, values, slots); });
+  if (!implementation_->log) return;
+  std::vector<std::string> names;
+  for (const Buffer slot : slots) names.emplace_back(name_of(slot));
+  implementation_->log->put(RecordedCall::run, std::string(name_of(kernel)), values, names);
 }
 
 void World::write_bytes(Buffer buffer, const void *from, size_t bytes, size_t offset)
 {
   answer("a buffer", implementation_->slots.existing(), [&] { implementation_->write(buffer, from, bytes, offset); });
+  if (implementation_->log)
+    implementation_->log->put(RecordedCall::write, std::string(name_of(buffer)), uint64_t{offset},
+                              std::span(static_cast<const std::byte *>(from), bytes));
 }
 
 size_t World::buffer_bytes(Buffer buffer) const
@@ -225,6 +361,7 @@ void World::set_gravity(const Vec3 &gravity)
 {
   const minicl::ExactFloatingPoint environment;
   answer("gravity", implementation_->slots.existing(), [&] { implementation_->set_gravity(gravity); });
+  note(implementation_->log, RecordedCall::set_gravity, gravity);
 }
 
 bool World::is_asleep(const BodyId &id) const
@@ -239,6 +376,7 @@ void World::wake_bodies(std::span<const BodyId> ids)
     implementation_->settle();
     implementation_->wake_bodies(slots, false);
   });
+  note(implementation_->log, RecordedCall::wake_bodies, ids);
 }
 
 const std::vector<SleepEvent> &World::sleep_events() const { return implementation_->sleep_events; }
@@ -327,14 +465,14 @@ uint64_t World::body_hash()
 
 uint64_t World::state_hash()
 {
-  const Implementation &world = *implementation_;
-  uint64_t hash = answer("the hash", world.slots.existing(), [&] {
-    implementation_->settle();
-    return hash_carried(implementation_->memory, world.buffers.carried(), {world.bodies(), world.special.awake},
-                        world.scene_features);
-  });
-  hash = world.sleepers.hash(hash);
-  for (const Quarantine &taken : world.quarantined) hash = hash_bytes(&taken.body, sizeof taken.body, hash);
+  return answer("the hash", implementation_->slots.existing(), [&] { return implementation_->state_hash(); });
+}
+
+uint64_t World::Implementation::state_hash()
+{
+  settle();
+  uint64_t hash = sleepers.hash(hash_carried(memory, buffers.carried(), {bodies(), special.awake}, scene_features));
+  for (const Quarantine &taken : quarantined) hash = hash_bytes(&taken.body, sizeof taken.body, hash);
   return hash;
 }
 

@@ -61,6 +61,16 @@ SHARED void store_linear_and_angular(GLOBAL float4 *body_velocity, uint body, ve
   store_float4(body_velocity, body * 2u + 1u, extend(angular, load_float4(body_velocity, body * 2u + 1u).w));
 }
 
+/* Sets the fourth numbers, which follow from the properties of the body. */
+SHARED void set_mass(GLOBAL float4 *body_velocity, uint body, vec3 values)
+{
+  spatial_velocity m = load_velocity(body_velocity, body);
+  vec3 zero = make_vec3(R(0.0), R(0.0), R(0.0));
+  mask keeps = values.z > R(0.0);
+  store_float4(body_velocity, body * 2u, extend(choose3(keeps, m.linear, zero), values.x));
+  store_float4(body_velocity, body * 2u + 1u, extend(choose3(keeps, m.angular, zero), values.y));
+}
+
 /* The velocity with which the body reaches a pose at the end of the step. */
 SHARED void move_to(GLOBAL const Parameters *parameters, GLOBAL const float4 *command_value, uint command,
                     GLOBAL const float4 *body_position, GLOBAL const float4 *body_orientation,
@@ -73,12 +83,17 @@ SHARED void move_to(GLOBAL const Parameters *parameters, GLOBAL const float4 *co
   store_linear_and_angular(body_velocity, body, scale(way, rate), scale(turn, rate));
 }
 
-SHARED void add_impulse(GLOBAL const float4 *body_mass, GLOBAL const float4 *body_orientation,
+/* locks: of the body, 0 without locks. */
+SHARED void add_impulse(GLOBAL const float4 *body_mass, uint locks, GLOBAL const float4 *body_orientation,
                         GLOBAL float4 *body_velocity, uint body, vec3 impulse, vec3 angular_impulse)
 {
   spatial_velocity m = load_velocity(body_velocity, body);
   symmetric3 inverse_inertia = rotate_diagonal(rotation_of(quat_from(load_float4(body_orientation, body))),
                                                xyz(load_float4(body_mass, body * 2u)));
+  if (locks != 0u) {
+    impulse = without_locked_axes(impulse, linear_locks(locks));
+    inverse_inertia = held_about_axes(inverse_inertia, angular_locks(locks));
+  }
   store_linear_and_angular(body_velocity, body, add_scaled(m.linear, impulse, m.inverse_mass),
                            add(m.angular, symmetric_times(inverse_inertia, angular_impulse)));
 }
@@ -94,22 +109,25 @@ SHARED vec3 moment_of_command(GLOBAL const float4 *command_value, uint command, 
 
 /* A fixed body has no velocity, whatever is asked. */
 SHARED void apply_commands_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_flags,
-                                GLOBAL const float4 *body_mass, read_commands commands, GLOBAL float4 *body_position,
-                                GLOBAL float4 *body_orientation, GLOBAL float4 *body_velocity, uint i)
+                                GLOBAL const float4 *body_mass, GLOBAL const uint *body_lock, read_commands commands,
+                                GLOBAL float4 *body_position, GLOBAL float4 *body_orientation,
+                                GLOBAL float4 *body_velocity, uint i)
 {
   for (uint k = commands.start[i]; k < commands.start[i + 1u]; ++k) {
     uint body = commands.command[2u * k], kind = commands.command[2u * k + 1u];
+    uint locks = HAS_FEATURE(parameters, LOCKS) ? body_lock[body] : 0u;
     int stands = body_type_of(body_flags[body]) == (uint)BODY_TYPE_FIXED;
     vec3 first = command_row(commands.value, k, 0u), second = command_row(commands.value, k, 1u);
     if (kind == (uint)COMMAND_SET_POSE) set_pose(commands.value, k, body_position, body_orientation, body);
+    else if (kind == (uint)COMMAND_SET_MASS) set_mass(body_velocity, body, first);
     else if (stands) continue;
     else if (kind == (uint)COMMAND_SET_VELOCITY) store_linear_and_angular(body_velocity, body, first, second);
     else if (kind == (uint)COMMAND_MOVE_TO)
       move_to(parameters, commands.value, k, body_position, body_orientation, body_velocity, body);
     else if (kind == (uint)COMMAND_ADD_IMPULSE)
-      add_impulse(body_mass, body_orientation, body_velocity, body, first, second);
+      add_impulse(body_mass, locks, body_orientation, body_velocity, body, first, second);
     else if (kind == (uint)COMMAND_ADD_IMPULSE_AT)
-      add_impulse(body_mass, body_orientation, body_velocity, body, first,
+      add_impulse(body_mass, locks, body_orientation, body_velocity, body, first,
                   moment_of_command(commands.value, k, body_position, body));
   }
 }

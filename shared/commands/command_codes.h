@@ -9,6 +9,7 @@
  *   MOVE_TO             position         low part of it       orientation
  *   ADD_FORCE           force, N         torque, N m
  *   ADD_FORCE_AT        force, N         point                low part of it
+ *   SET_MASS            inverse mass, gravity factor, 1 if the body keeps its velocity
  */
 #ifndef TANDEM_SHARED_COMMANDS_COMMAND_CODES_H
 #define TANDEM_SHARED_COMMANDS_COMMAND_CODES_H
@@ -20,7 +21,8 @@ enum {
   COMMAND_ADD_IMPULSE_AT = 3,
   COMMAND_MOVE_TO = 4,
   COMMAND_ADD_FORCE = 5,
-  COMMAND_ADD_FORCE_AT = 6
+  COMMAND_ADD_FORCE_AT = 6,
+  COMMAND_SET_MASS = 7
 };
 
 #endif

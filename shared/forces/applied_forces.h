@@ -3,12 +3,13 @@
  *   body_force  --begin_forces-->  solver_force  --modules add-->  apply_forces  -->  solver_velocity
  *
  * body_force holds what the calls between two steps have added up (shared/commands/apply_commands.h). It acts in every
- * substep and is cleared when the step is committed, so a step that runs again uses the same forces. Modules that launch
- * at StepPoint::forces add to solver_force in each substep. This is the box "apply forces" before "integrate" in the
- * figures of the 2009 and 2013 talks. A scene without forces has none of these kernels and buffers.
+ * substep and is cleared when the step is committed, so a step that runs again uses the same forces. Modules that
+ * launch at StepPoint::forces add to solver_force in each substep. This is the box "apply forces" before "integrate" in
+ * the figures of the 2009 and 2013 talks. A scene without forces has none of these kernels and buffers.
  *
  * A constant force gives the parabola of its closed form, as gravity does (integrate/positions.h): the symplectic Euler
- * step moves a body that no constraint touches half a substep's acceleration too far, and follow_forces takes that back.
+ * step moves a body that no constraint touches half a substep's acceleration too far, and follow_forces takes that
+ * back.
  */
 #ifndef TANDEM_SHARED_FORCES_APPLIED_FORCES_H
 #define TANDEM_SHARED_FORCES_APPLIED_FORCES_H
@@ -33,16 +34,19 @@ SHARED void apply_forces_item(GLOBAL const Parameters *parameters, GLOBAL const 
   store_velocity_if(m.inverse_mass > R(0.0), solver_velocity, i, m);
 }
 
-SHARED void follow_forces_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_falls,
-                               GLOBAL const memory_real *solver_free_power, GLOBAL const float4 *solver_velocity,
-                               GLOBAL const float4 *solver_force, GLOBAL float4 *solver_delta_pose, item_index i)
+SHARED void follow_forces_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_lock,
+                               GLOBAL const uint *body_falls, GLOBAL const memory_real *solver_free_power,
+                               GLOBAL const float4 *solver_velocity, GLOBAL const float4 *solver_force,
+                               GLOBAL float4 *solver_delta_pose, item_index i)
 {
   spatial_velocity m = load_velocity(solver_velocity, i);
   real h = parameters->substep;
   mask free = (load_uint(body_falls, i) != 0u) & (m.inverse_mass > R(0.0)) &
               is_left_alone(parameters, m, load_real(solver_free_power, i));
   vec3 translation = xyz(load_float4(solver_delta_pose, i * 2u));
-  translation = add_scaled(translation, xyz(load_float4(solver_force, i * 2u)), R(-0.5) * h * h * m.inverse_mass);
+  vec3 force = xyz(load_float4(solver_force, i * 2u));
+  if (HAS_FEATURE(parameters, LOCKS)) force = without_locked_axes(force, linear_locks(load_uint(body_lock, i)));
+  translation = add_scaled(translation, force, R(-0.5) * h * h * m.inverse_mass);
   store_float4_if(free, solver_delta_pose, i * 2u, extend(translation, R(0.0)));
 }
 

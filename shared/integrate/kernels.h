@@ -5,7 +5,9 @@
 #define TANDEM_SHARED_INTEGRATE_KERNELS_H
 
 #include "shared/integrate/cache_rolling.h"
+#include "shared/integrate/clamp_speeds.h"
 #include "shared/integrate/commit.h"
+#include "shared/integrate/lock_bodies.h"
 #include "shared/integrate/positions.h"
 #include "shared/integrate/prepare.h"
 #include "shared/integrate/stop_at_time_of_impact.h"

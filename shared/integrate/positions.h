@@ -90,9 +90,10 @@ SHARED mask is_left_alone(GLOBAL const Parameters *parameters, spatial_velocity 
 }
 
 SHARED void integrate_positions_item(GLOBAL const Parameters *parameters, GLOBAL const float4 *body_mass,
-                                     GLOBAL const uint *body_falls, GLOBAL const memory_real *solver_free_power,
-                                     GLOBAL float4 *solver_velocity, GLOBAL float4 *solver_delta_pose,
-                                     GLOBAL float4 *solver_inertia, GLOBAL float4 *solver_orientation, item_index i)
+                                     GLOBAL const uint *body_lock, GLOBAL const uint *body_falls,
+                                     GLOBAL const memory_real *solver_free_power, GLOBAL float4 *solver_velocity,
+                                     GLOBAL float4 *solver_delta_pose, GLOBAL float4 *solver_inertia,
+                                     GLOBAL float4 *solver_orientation, item_index i)
 {
   spatial_velocity m = load_velocity(solver_velocity, i);
   real h = parameters->substep;
@@ -101,6 +102,8 @@ SHARED void integrate_positions_item(GLOBAL const Parameters *parameters, GLOBAL
                is_left_alone(parameters, m, load_real(solver_free_power, i));
   real ahead = choose(falls, R(-0.5) * h * h * mass.w, (real)R(0.0));
   vec3 gravity = gravity_of(parameters);
+  uint_lanes locks = HAS_FEATURE(parameters, LOCKS) ? load_uint(body_lock, i) : (uint_lanes)0u;
+  if (HAS_FEATURE(parameters, LOCKS)) gravity = without_locked_axes(gravity, linear_locks(locks));
 
   vec3 translation = xyz(load_float4(solver_delta_pose, i * 2u)),
        rotation = xyz(load_float4(solver_delta_pose, i * 2u + 1u));
@@ -113,10 +116,12 @@ SHARED void integrate_positions_item(GLOBAL const Parameters *parameters, GLOBAL
   if (HAS_FEATURE(parameters, GYROSCOPIC)) {
     /* The choice is made for each body, so that its bits do not depend on the other bodies of the scene. */
     mask uneven = (m.inverse_mass > R(0.0)) & ((mass.x != mass.y) | (mass.y != mass.z));
+    /* What holds an axis takes up the torque with which the body would change its angular velocity. */
+    mask turns_freely = uneven & (angular_locks(locks) == 0u);
     spin s = turn_freely(q, m.angular, xyz(mass), h);
-    next = quat_from(choose4(uneven, quat_to_vec4(s.orientation), quat_to_vec4(next)));
+    next = quat_from(choose4(turns_freely, quat_to_vec4(s.orientation), quat_to_vec4(next)));
     m.angular = s.angular;
-    store_velocity_if(uneven, solver_velocity, i, m);
+    store_velocity_if(turns_freely, solver_velocity, i, m);
     store_inertia_if(uneven, solver_inertia, i, rotate_diagonal(rotation_of(next), xyz(mass)));
   }
   store_float4(solver_orientation, i, quat_to_vec4(next));

@@ -7,9 +7,9 @@
 /* warm_start_impulse: the impulse of the body's constraints in the last substep, 0 in the first; this kernel applies
  * and clears it. solver_free_power tells integrate_positions whether constraints push the body. */
 SHARED void integrate_velocities_item(GLOBAL const Parameters *parameters, GLOBAL const float4 *body_mass,
-                                      GLOBAL const float4 *solver_inertia, GLOBAL float4 *solver_velocity,
-                                      GLOBAL float4 *warm_start_impulse, GLOBAL memory_real *solver_free_power,
-                                      item_index i)
+                                      GLOBAL const uint *body_lock, GLOBAL const float4 *solver_inertia,
+                                      GLOBAL float4 *solver_velocity, GLOBAL float4 *warm_start_impulse,
+                                      GLOBAL memory_real *solver_free_power, item_index i)
 {
   spatial_velocity m = load_velocity(solver_velocity, i);
   real h = parameters->substep;
@@ -21,8 +21,11 @@ SHARED void integrate_velocities_item(GLOBAL const Parameters *parameters, GLOBA
     m.linear = scale(m.linear, R(1.0) / (R(1.0) + h * damping.x));
     m.angular = scale(m.angular, R(1.0) / (R(1.0) + h * damping.y));
   }
+  if (HAS_FEATURE(parameters, LOCKS)) /* forces may have pushed as well */
+    m.linear = without_locked_axes(m.linear, linear_locks(load_uint(body_lock, i)));
   real free_power = dot3(gravity_of(parameters), m.linear);
   m.linear = add_scaled(m.linear, xyz(load_float4(warm_start_impulse, i * 2u)), m.inverse_mass);
+  if (HAS_FEATURE(parameters, LOCKS)) m.linear = without_locked_axes(m.linear, linear_locks(load_uint(body_lock, i)));
   m.angular = add(m.angular,
                   symmetric_times(load_inertia(solver_inertia, i), xyz(load_float4(warm_start_impulse, i * 2u + 1u))));
   store_velocity_if(moves, solver_velocity, i, m);

@@ -49,6 +49,7 @@ typedef struct {
   spatial_velocity velocity_a, velocity_b;
   symmetric3 inertia_a, inertia_b;
   vec3 offset;
+  real locks_a, locks_b; /* linear, as in solver_inertia */
 } body_pair;
 
 SHARED vec3 relative_velocity(body_pair bodies, vec3 arm_a, vec3 arm_b)
@@ -56,18 +57,46 @@ SHARED vec3 relative_velocity(body_pair bodies, vec3 arm_a, vec3 arm_b)
   return subtract(velocity_at(bodies.velocity_b, arm_b), velocity_at(bodies.velocity_a, arm_a));
 }
 
+/* The part of the linear motion in `response`. */
+SHARED real linear_response(body_pair bodies, vec3 first, vec3 second)
+{
+  real mass_a = bodies.velocity_a.inverse_mass, mass_b = bodies.velocity_b.inverse_mass;
+  real free = (mass_a + mass_b) * dot3(first, second);
+  mask locked = (bodies.locks_a + bodies.locks_b) > R(0.0);
+  if (!MAY_OCCUR(LOCKS) || !any_of(locked)) return free;
+  return choose(locked,
+                mass_a * dot3(without_locked_axes(first, to_uint(bodies.locks_a)), second) +
+                    mass_b * dot3(without_locked_axes(first, to_uint(bodies.locks_b)), second),
+                free);
+}
+
 /* The relative velocity along `second` that a unit impulse along `first` gives. */
 SHARED real response(body_pair bodies, vec3 arm_a, vec3 arm_b, vec3 first, vec3 second)
 {
   vec3 inertia_cross_a = symmetric_times(bodies.inertia_a, cross3(arm_a, first));
   vec3 inertia_cross_b = symmetric_times(bodies.inertia_b, cross3(arm_b, first));
-  return (bodies.velocity_a.inverse_mass + bodies.velocity_b.inverse_mass) * dot3(first, second) +
-         dot3(inertia_cross_a, cross3(arm_a, second)) + dot3(inertia_cross_b, cross3(arm_b, second));
+  return linear_response(bodies, first, second) + dot3(inertia_cross_a, cross3(arm_a, second)) +
+         dot3(inertia_cross_b, cross3(arm_b, second));
 }
 
 SHARED real inverse_or_zero(real x)
 {
   return choose(x > R(0.0), R(1.0) / choose(x > R(0.0), x, (real)R(1.0)), (real)R(0.0));
+}
+
+/* The effective mass along a normal. Locks can leave next to nothing of the mobility along it, when a normal differs
+ * from a locked axis by little more than rounding. Such a row would throw the body aside with a huge impulse, so it
+ * takes no part, as a row between bodies that cannot be pushed. */
+#define LEAST_MOBILITY R(0.01)
+SHARED real normal_mass(body_pair bodies, vec3 arm_a, vec3 arm_b, vec3 normal)
+{
+  real mobility = response(bodies, arm_a, arm_b, normal, normal);
+  if (MAY_OCCUR(LOCKS)) {
+    mask stuck = ((bodies.locks_a + bodies.locks_b) > R(0.0)) &
+                 (mobility < LEAST_MOBILITY * (bodies.velocity_a.inverse_mass + bodies.velocity_b.inverse_mass));
+    mobility = zero_if(stuck, mobility);
+  }
+  return inverse_or_zero(mobility);
 }
 
 /* One mass serves every direction of the tangent plane. It is the smallest, 1 / the largest eigenvalue of the 2 x 2
@@ -122,8 +151,8 @@ SHARED body_pair load_body_pair(GLOBAL const uint *pair_a, GLOBAL const uint *pa
   bodies.b = load_uint(pair_b, pair);
   bodies.velocity_a = load_velocity(solver_velocity, bodies.a);
   bodies.velocity_b = load_velocity(solver_velocity, bodies.b);
-  bodies.inertia_a = load_inertia(solver_inertia, bodies.a);
-  bodies.inertia_b = load_inertia(solver_inertia, bodies.b);
+  bodies.inertia_a = load_inertia_and_locks(solver_inertia, bodies.a, &bodies.locks_a);
+  bodies.inertia_b = load_inertia_and_locks(solver_inertia, bodies.b, &bodies.locks_b);
   bodies.offset = offset_between(body_position, bodies.a, bodies.b);
   return bodies;
 }
@@ -134,7 +163,14 @@ SHARED real relative_pull(GLOBAL const Parameters *parameters, GLOBAL const floa
 {
   real a = choose(bodies.velocity_a.inverse_mass > R(0.0), load_float4(body_mass, bodies.a * 2u).w, (real)R(0.0));
   real b = choose(bodies.velocity_b.inverse_mass > R(0.0), load_float4(body_mass, bodies.b * 2u).w, (real)R(0.0));
-  return (b - a) * dot3(gravity_of(parameters), normal);
+  vec3 gravity = gravity_of(parameters);
+  real pull = (b - a) * dot3(gravity, normal);
+  mask locked = (bodies.locks_a + bodies.locks_b) > R(0.0);
+  if (!MAY_OCCUR(LOCKS) || !any_of(locked)) return pull;
+  return choose(locked,
+                b * dot3(without_locked_axes(gravity, to_uint(bodies.locks_b)), normal) -
+                    a * dot3(without_locked_axes(gravity, to_uint(bodies.locks_a)), normal),
+                pull);
 }
 
 /* constraint_normal stores friction beside the normal, as a negative number if the arms do not follow the bodies. */
@@ -309,7 +345,7 @@ SHARED void prepare_point(GLOBAL const Parameters *parameters, const contact_set
 {
   mask used = s->points > (uint_lanes)k;
   vec3 arm_a = xyz(point), arm_b = subtract(arm_a, s->bodies.offset);
-  real mass = choose(used, inverse_or_zero(response(s->bodies, arm_a, arm_b, s->normal, s->normal)), (real)R(0.0));
+  real mass = choose(used, normal_mass(s->bodies, arm_a, arm_b, s->normal), (real)R(0.0));
   real speed = dot3(s->normal, relative_velocity(s->bodies, arm_a, arm_b));
   store_float4(constraint_points, stride * k + i,
                extend(add(arm_a, s->arms_back.a), choose(used, point.w, (real)R(0.0))));

@@ -23,6 +23,7 @@ typedef struct {
   real friction;
   real follows; /* 1: arms follow what the bodies slide past each other; 0: they stay as they are, of bodies that pass
                    each other fast */
+  real locks_a, locks_b; /* linear, as in solver_inertia */
 } contact;
 
 SHARED contact load_contact(read_contacts contacts, GLOBAL const float4 *solver_velocity,
@@ -33,8 +34,8 @@ SHARED contact load_contact(read_contacts contacts, GLOBAL const float4 *solver_
   c.b = load_uint(contacts.b, i);
   c.velocity_a = load_velocity(solver_velocity, c.a);
   c.velocity_b = load_velocity(solver_velocity, c.b);
-  c.inertia_a = load_inertia(solver_inertia, c.a);
-  c.inertia_b = load_inertia(solver_inertia, c.b);
+  c.inertia_a = load_inertia_and_locks(solver_inertia, c.a, &c.locks_a);
+  c.inertia_b = load_inertia_and_locks(solver_inertia, c.b, &c.locks_b);
   vec4 normal = load_float4(contacts.normal, i);
   c.normal = xyz(normal);
   c.friction = friction_of(normal.w);
@@ -75,8 +76,8 @@ SHARED contact apply_turn(contact c, vec3 r_cross_n_a, vec3 r_cross_n_b, real im
 /* Impulse along a direction through arms whose cross products with it are r_cross_n_a, r_cross_n_b. */
 SHARED contact apply_impulse(contact c, vec3 direction, vec3 r_cross_n_a, vec3 r_cross_n_b, real impulse)
 {
-  c.velocity_a.linear = add_scaled(c.velocity_a.linear, direction, -(c.velocity_a.inverse_mass * impulse));
-  c.velocity_b.linear = add_scaled(c.velocity_b.linear, direction, c.velocity_b.inverse_mass * impulse);
+  c.velocity_a.linear = pushed(c.velocity_a.linear, c.locks_a, direction, -(c.velocity_a.inverse_mass * impulse));
+  c.velocity_b.linear = pushed(c.velocity_b.linear, c.locks_b, direction, c.velocity_b.inverse_mass * impulse);
   return apply_turn(c, r_cross_n_a, r_cross_n_b, impulse);
 }
 
@@ -208,7 +209,8 @@ SHARED mask masses_are_stale(delta_pose moved, arm_shift shift, vec4 center_a, v
 /* The bodies of a contact in the form that setup uses. The offset is not valid, because no mass depends on it. */
 SHARED body_pair bodies_of(contact c)
 {
-  body_pair bodies = {c.a, c.b, c.velocity_a, c.velocity_b, c.inertia_a, c.inertia_b, c.normal};
+  body_pair bodies = {c.a,         c.b,      c.velocity_a, c.velocity_b, c.inertia_a,
+                      c.inertia_b, c.normal, c.locks_a,    c.locks_b};
   return bodies;
 }
 
@@ -283,6 +285,15 @@ SHARED real normal_impulse(GLOBAL const Parameters *parameters, softness soft, r
   return biased != 0u ? impulse : choose(ahead & (old == R(0.0)), old, impulse);
 }
 
+/* Twice the energy that an impulse along the normal gives to linear motion. */
+SHARED real linear_energy(contact c, real impulse)
+{
+  real energy = (c.velocity_a.inverse_mass + c.velocity_b.inverse_mass) * impulse * impulse;
+  mask locked = (c.locks_a + c.locks_b) > R(0.0);
+  if (!MAY_OCCUR(LOCKS) || !any_of(locked)) return energy;
+  return choose(locked, linear_response(bodies_of(c), c.normal, c.normal) * impulse * impulse, energy);
+}
+
 /* Moves all points towards their target impulses at once, so that a box on four corners does not tilt towards the
  * corner that is solved first. Target impulses that pull are cut to 0. The changes of all points are one direction. The
  * share of this direction that brings the points nearest to their targets together is own / whole: the energy that the
@@ -299,7 +310,7 @@ SHARED contact block_solve_normals(contact c, normal_rows *s, const real *target
     r_cross_n_a = add_scaled(r_cross_n_a, s->r_cross_n_a[k], change[k]);
     r_cross_n_b = add_scaled(r_cross_n_b, s->r_cross_n_b[k], change[k]);
   }
-  real whole = (c.velocity_a.inverse_mass + c.velocity_b.inverse_mass) * sum * sum +
+  real whole = linear_energy(c, sum) +
                dot3(r_cross_n_a, symmetric_times(c.inertia_a, r_cross_n_a)) +
                dot3(r_cross_n_b, symmetric_times(c.inertia_b, r_cross_n_b));
   real share = minimum(own / choose(whole > R(0.0), whole, (real)R(1.0)), R(2.0));
@@ -307,8 +318,9 @@ SHARED contact block_solve_normals(contact c, normal_rows *s, const real *target
   for (uint k = 1; k < 4u; ++k) pulls = pulls | (s->impulse[k] + share * change[k] < R(0.0));
   share = choose(pulls, minimum(share, R(1.0)), share);
   for (uint k = 0; k < 4u; ++k) s->impulse[k] = s->impulse[k] + share * change[k];
-  c.velocity_a.linear = add_scaled(c.velocity_a.linear, c.normal, -(c.velocity_a.inverse_mass * (share * sum)));
-  c.velocity_b.linear = add_scaled(c.velocity_b.linear, c.normal, c.velocity_b.inverse_mass * (share * sum));
+  c.velocity_a.linear =
+      pushed(c.velocity_a.linear, c.locks_a, c.normal, -(c.velocity_a.inverse_mass * (share * sum)));
+  c.velocity_b.linear = pushed(c.velocity_b.linear, c.locks_b, c.normal, c.velocity_b.inverse_mass * (share * sum));
   return apply_turn(c, r_cross_n_a, r_cross_n_b, share);
 }
 
@@ -342,8 +354,8 @@ SHARED contact apply_changes(contact c, const normal_rows *s, vec4 changes)
     r_cross_n_b = add_scaled(r_cross_n_b, s->r_cross_n_b[k], change);
   }
   real sum = (changes.x + changes.y) + (changes.z + changes.w);
-  c.velocity_a.linear = add_scaled(c.velocity_a.linear, c.normal, -(c.velocity_a.inverse_mass * sum));
-  c.velocity_b.linear = add_scaled(c.velocity_b.linear, c.normal, c.velocity_b.inverse_mass * sum);
+  c.velocity_a.linear = pushed(c.velocity_a.linear, c.locks_a, c.normal, -(c.velocity_a.inverse_mass * sum));
+  c.velocity_b.linear = pushed(c.velocity_b.linear, c.locks_b, c.normal, c.velocity_b.inverse_mass * sum);
   return apply_turn(c, r_cross_n_a, r_cross_n_b, R(1.0));
 }
 

@@ -69,12 +69,12 @@ SHARED void split_masses_item(read_contacts contacts, read_patches patches, GLOB
   real parts_a = parts_of(body_constraint_start, split_static_constraints, c.a, supported),
        parts_b = parts_of(body_constraint_start, split_static_constraints, c.b, supported);
   c = split_contact(c, parts_a, parts_b);
-  body_pair parts = {c.a, c.b, c.velocity_a, c.velocity_b, c.inertia_a, c.inertia_b, {R(0.0), R(0.0), R(0.0)}};
+  body_pair parts = bodies_of(c);
   real mass[4];
   for (uint k = 0; k < 4u; ++k) {
     vec4 point_b = load_float4(patches.points, stride * (k + 4u) + i);
-    real whole = response(parts, xyz(load_float4(patches.points, stride * k + i)), xyz(point_b), c.normal, c.normal);
-    mass[k] = choose(point_b.w > R(0.0), inverse_or_zero(whole), (real)R(0.0));
+    real whole = normal_mass(parts, xyz(load_float4(patches.points, stride * k + i)), xyz(point_b), c.normal);
+    mass[k] = choose(point_b.w > R(0.0), whole, (real)R(0.0));
   }
   vec3 center_a = xyz(load_float4(patches.center, i)), center_b = xyz(load_float4(patches.center, stride + i));
   store_float4(split_mass, i, make_vec4(mass[0], mass[1], mass[2], mass[3]));
@@ -363,8 +363,10 @@ SHARED void split_apply_item(GLOBAL const uint *body_constraint_start, GLOBAL co
     }
   }
   spatial_velocity m = load_velocity(solver_velocity, i);
-  m.linear = add_scaled(m.linear, sum.linear, m.inverse_mass);
-  m.angular = add(m.angular, symmetric_times(load_inertia(solver_inertia, i), sum.angular));
+  real locks;
+  symmetric3 inertia = load_inertia_and_locks(solver_inertia, i, &locks);
+  m.linear = pushed(m.linear, locks, sum.linear, m.inverse_mass);
+  m.angular = add(m.angular, symmetric_times(inertia, sum.angular));
   mask changed = is_nonzero(sum.linear) | is_nonzero(sum.angular); /* adding 0 would turn -0 into +0 */
   store_velocity_if(changed & (m.inverse_mass > R(0.0)), solver_velocity, i, m);
 }

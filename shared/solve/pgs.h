@@ -104,7 +104,7 @@ SHARED void pgs_masses_item(read_contacts contacts, read_solver_bodies solver_bo
   for (uint k = 0; k < 4u; ++k) {
     vec4 point_b = load_float4(constraint_points, stride * (k + 4u) + i);
     vec3 arm_a = add(xyz(load_float4(constraint_points, stride * k + i)), shift.a), arm_b = add(xyz(point_b), shift.b);
-    real mass = inverse_or_zero(response(bodies, arm_a, arm_b, c.normal, c.normal));
+    real mass = normal_mass(bodies, arm_a, arm_b, c.normal);
     store_float4(constraint_points, stride * (k + 4u) + i,
                  extend(xyz(point_b), choose(point_b.w > R(0.0), mass, (real)R(0.0))));
   }

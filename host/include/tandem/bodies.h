@@ -16,6 +16,7 @@
 #include <optional>
 
 #include <tandem/queries.h>
+#include <tandem/scene.h>
 #include <tandem/shapes.h>
 
 namespace tandem {
@@ -24,6 +25,13 @@ struct BodyId {
   uint32_t index = no_body;
   uint32_t generation = 0; /* 0: of no body */
   friend bool operator==(const BodyId &, const BodyId &) = default;
+};
+
+/* A shape of a body: see World::shapes_of. */
+struct ShapeId {
+  uint32_t index = 0xffffffffu;
+  uint32_t generation = 0; /* 0: of no shape */
+  friend bool operator==(const ShapeId &, const ShapeId &) = default;
 };
 
 struct Velocity {
@@ -51,5 +59,34 @@ struct SleepEvent {
   BodyId body;
   bool asleep = false;
 };
+
+/* What World::set_properties changes of a body: the fields that are given, as Body describes them. The others stay.
+ *
+ *   world.set_properties(id, {.type = BodyType::kinematic, .gravity_factor = 0.5f});
+ *
+ * Inertia that the user did not give follows shape and mass; given inertia stays until it is given again, and all 0
+ * makes it follow again. A body that becomes fixed comes to rest; one that becomes dynamic must have a valid mass. */
+struct BodyProperties {
+  std::optional<BodyType> type = std::nullopt;
+  std::optional<bool> trigger = std::nullopt;
+  std::optional<bool> continuous = std::nullopt;
+  std::optional<uint32_t> material = std::nullopt;
+  std::optional<float> mass = std::nullopt;   /* kg */
+  std::optional<Vec3> inertia = std::nullopt; /* kg m^2 */
+  std::optional<bool> infinite_inertia = std::nullopt;
+  std::optional<float> gravity_factor = std::nullopt;
+  std::optional<float> linear_damping = std::nullopt;  /* 1/s */
+  std::optional<float> angular_damping = std::nullopt; /* 1/s */
+  std::optional<uint32_t> filter_group = std::nullopt;
+  std::optional<uint32_t> filter_mask = std::nullopt;
+  std::optional<Axes> linear_locks = std::nullopt;
+  std::optional<Axes> angular_locks = std::nullopt;
+  std::optional<float> max_linear_speed = std::nullopt;  /* m/s */
+  std::optional<float> max_angular_speed = std::nullopt; /* rad/s */
+  std::optional<uint64_t> user_data = std::nullopt;
+};
+
+/* All properties of a body, for instance to restore them later. */
+TANDEM_API BodyProperties properties_of(const Body &body);
 
 } // namespace tandem

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,12 @@ enum class BodyType : uint32_t {
   dynamic = 2
 };
 
+/* Axes of the world. */
+struct Axes {
+  bool x = false, y = false, z = false;
+  friend bool operator==(const Axes &, const Axes &) = default;
+};
+
 struct Body {
   std::string name;
   BodyType type = BodyType::dynamic;
@@ -61,6 +68,13 @@ struct Body {
   uint32_t filter_mask = 0xffffffffu; /* groups it collides with; both bodies must accept each other */
   bool continuous =
       false; /* continuous collision detection: thin walls stop the body at any speed; not for half-spaces */
+  /* Axes along which, and about which, a dynamic body does not move, whatever pushes it: its mass or moment is infinite
+   * there, and a velocity that it is given there becomes 0 in the next step. The solver avbd has no locks. */
+  Axes linear_locks, angular_locks;
+  /* > 0; a substep does not begin with a dynamic body faster than this, but its contacts may push it further. */
+  float max_linear_speed = std::numeric_limits<float>::infinity();  /* m/s */
+  float max_angular_speed = std::numeric_limits<float>::infinity(); /* rad/s */
+  uint64_t user_data = 0;                                           /* whatever the program likes; nothing reads it */
 };
 
 struct Scene {

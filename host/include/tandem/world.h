@@ -10,6 +10,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -24,6 +25,7 @@
 #include <tandem/export.h>
 #include <tandem/features.h>
 #include <tandem/queries.h>
+#include <tandem/recording.h>
 #include <tandem/scene.h>
 #include <tandem/settings.h>
 
@@ -83,7 +85,52 @@ struct KernelTime {
 class TANDEM_API World {
 public:
   World(const Scene &scene, const Settings &settings = {}, const Placement &placement = {});
+  /* A world as save() found it, on any placement. extensions: those of the settings of the world that was saved, with
+   * the same modules in the same order, because a snapshot holds no functions; `prepare` of them is not called, and
+   * buffers of modules have the contents that they had. Throws InputError if the bytes are damaged, cut off, of another
+   * format or no snapshot, and whatever the constructor above throws. */
+  explicit World(std::span<const std::byte> snapshot, const Placement &placement = {},
+                 std::vector<Extension> extensions = {});
   ~World();
+
+  /* All that decides the bits of the next steps and calls: the scene, the settings, bodies with their handles, free
+   * indices, and what steps hand on to each other. Calls so far are part of it. It does not depend on the backends: a
+   * world that is made of it anywhere goes on with the same bits. Only the reference backend loses what its doubles
+   * have beyond floats. The events and contact figures of the last step are not part of it. Bytes are little-endian and
+   * carry their format and a hash (docs/recordings.md). */
+  std::vector<std::byte> save();
+  /* Makes this world what it was, or another world was, when save() was called; settings and scene become those of the
+   * snapshot, placement, observer and profiling stay. Calls that no step has applied yet are dropped. Handles of bodies
+   * that were created since are stale: they may name no body, or, if bodies are created again, another one. References
+   * that scene(), settings(), memory() and others returned before become invalid. If it throws (as the constructor
+   * does), the world is unchanged. */
+  void restore(std::span<const std::byte> snapshot);
+
+  /* Writes from now on what is done with this world to a file: a snapshot, each call with its arguments, and a hash a
+   * step (<tandem/recording.h>). Placements, queries and other reading are not part of it. States that were kept before
+   * are forgotten. The file is complete up to the last step at any time, in case the program ends without
+   * stop_recording. Throws InputError if the file cannot be written. If writing fails later, the world goes on, and
+   * stop_recording throws InputError. A world records to one file at a time; a second call ends the first recording. */
+  void start_recording(const std::string &path, const RecordingOptions &options = {});
+  void stop_recording(); /* does nothing unless the world records */
+
+  /* --- the last states ---
+   * They stay in the memory of the devices that made them, so that keeping one costs a copy there and nothing goes
+   * through the host. */
+
+  /* Makes room for so many states, 0 to 10,000, and keeps the present one, calls included; those kept before are gone.
+   * after_steps: each step keeps its state, in place of the oldest. 0 frees the room. OutOfMemory: nothing has
+   * changed. */
+  void keep_states(uint32_t states, bool after_steps = true);
+  void keep_state(); /* keeps the present state, calls so far included; InputError without room */
+  uint32_t states_kept() const;
+  /* Returns to a state that was kept, 0 the newest, states_kept() - 1 the oldest; the next steps have the same bits as
+   * the steps after it had. The states after it are forgotten, calls since then are dropped, and bodies that came or
+   * went since are as they were; as restore() says, handles made since are stale. There are no events and contact
+   * figures until a step. What World::write wrote to buffers of modules stays. Throws InputError if the state is not
+   * kept: a call that lays the buffers out anew (the first body of a new kind, more room for bodies) and restore()
+   * forget all states, and the message says so. The world is then unchanged. */
+  void go_back(uint32_t states);
 
   /* Advances by settings.step. Throws std::runtime_error if a device fails, memory runs out (OutOfMemory: what was
    * requested, and for how many bodies and pairs) or more pairs are found than Settings::max_pairs. The state is then
@@ -125,6 +172,62 @@ public:
   /* Adds a shape or a material that bodies created later may use; returns its index in scene(). */
   uint32_t add_shape(const Shape &shape);
   uint32_t add_material(const Material &material);
+
+  /* Changes properties of bodies, in the order of the entries, after all calls so far. scene() then has the new values.
+   * The message of an InputError names the body. The first filter, trigger, damping, continuous body and so on of a
+   * world brings in new kernels and buffers, which takes longer than later changes. A body that becomes continuous
+   * stays among the small ones in the grid, whose cells must then hold its way through a step. */
+  void set_properties(std::span<const BodyId> ids, std::span<const BodyProperties> properties);
+  void set_properties(const BodyId &id, const BodyProperties &properties)
+  {
+    set_properties(std::span(&id, 1), std::span(&properties, 1));
+  }
+  void set_type(const BodyId &id, BodyType type) { set_properties(id, {.type = type}); }
+  void set_trigger(const BodyId &id, bool trigger) { set_properties(id, {.trigger = trigger}); }
+  void set_continuous(const BodyId &id, bool continuous) { set_properties(id, {.continuous = continuous}); }
+  void set_material(const BodyId &id, uint32_t material) { set_properties(id, {.material = material}); }
+  void set_mass(const BodyId &id, float mass) { set_properties(id, {.mass = mass}); }
+  void set_mass(const BodyId &id, float mass, const Vec3 &inertia)
+  {
+    set_properties(id, {.mass = mass, .inertia = inertia});
+  }
+  void set_gravity_factor(const BodyId &id, float factor) { set_properties(id, {.gravity_factor = factor}); }
+  void set_damping(const BodyId &id, float linear, float angular)
+  {
+    set_properties(id, {.linear_damping = linear, .angular_damping = angular});
+  }
+  void set_filter(const BodyId &id, uint32_t group, uint32_t mask)
+  {
+    set_properties(id, {.filter_group = group, .filter_mask = mask});
+  }
+  void set_locks(const BodyId &id, const Axes &linear, const Axes &angular)
+  {
+    set_properties(id, {.linear_locks = linear, .angular_locks = angular});
+  }
+  void set_max_speeds(const BodyId &id, float linear, float angular)
+  {
+    set_properties(id, {.max_linear_speed = linear, .max_angular_speed = angular});
+  }
+  void set_user_data(const BodyId &id, uint64_t data) { set_properties(id, {.user_data = data}); }
+  /* The body as it is in scene(): with its present properties, and the pose and velocity that it was created with. */
+  Body body_description(const BodyId &id) const;
+
+  /* Shapes of bodies. The shapes of a body are the children of its compound, in their order, or its only shape. An added
+   * one lies in the same frame as the others, that of Body::shape_position and shape_orientation; if the body is not a
+   * compound yet, it becomes one. The frame stays where it is in the world. If a dynamic body has no inertia of the
+   * user's (Body::inertia is 0), its mass follows at the density that it has, its position becomes the new centre of
+   * mass, and its velocity that of this point; other bodies keep all that. InputError: as compound_shape and validate()
+   * say; a half-space; the last shape of a body. Each call lays out the tables of shapes anew, so many changes should be
+   * one call. */
+  std::vector<ShapeId> add_shapes(std::span<const BodyId> ids, std::span<const Child> shapes);
+  ShapeId add_shape_to(const BodyId &id, const Child &shape)
+  {
+    return add_shapes(std::span(&id, 1), std::span(&shape, 1)).front();
+  }
+  void remove_shapes(std::span<const ShapeId> ids);
+  void remove_shape(const ShapeId &id) { remove_shapes(std::span(&id, 1)); }
+  std::vector<ShapeId> shapes_of(const BodyId &id);
+  BodyId body_of(const ShapeId &id) const;
 
   std::vector<BodyState> read_bodies(std::span<const BodyId> ids);
   BodyState read_body(const BodyId &id) { return read_bodies(std::span(&id, 1)).front(); }

@@ -263,6 +263,13 @@ uint32_t JsonValue::unsigned_integer() const
   return value_->get<uint32_t>();
 }
 
+uint64_t JsonValue::long_unsigned_integer() const
+{
+  if (!value_->is_number_unsigned())
+    fail(fmt::format("is {}; an integer from 0 to 18446744073709551615 is needed", shown(*value_)));
+  return value_->get<uint64_t>();
+}
+
 std::string JsonValue::text() const
 {
   if (!value_->is_string()) fail(fmt::format("is {}; a string is needed", shown(*value_)));

@@ -56,6 +56,7 @@ public:
   Quat quat() const;
   bool boolean() const;
   uint32_t unsigned_integer() const;
+  uint64_t long_unsigned_integer() const;
   std::string text() const;
   size_t choice(std::span<const char *const> names) const; /* index of the string in names */
 

@@ -19,6 +19,7 @@ namespace {
 
 using tandem::written; /* beside the overloads of this file */
 
+constexpr const char *axis_names[] = {"x", "y", "z"};
 constexpr const char *motion_names[] = {"fixed", "kinematic", "dynamic"};
 constexpr const char *combine_names[] = {"average", "minimum", "maximum", "multiply", "geometric_mean"};
 
@@ -59,6 +60,11 @@ template <typename Field> void each_field(const Body *, Field &&field)
   field("filter_mask", &Body::filter_mask);
   field("trigger", &Body::trigger);
   field("continuous", &Body::continuous);
+  field("linear_locks", &Body::linear_locks);
+  field("angular_locks", &Body::angular_locks);
+  field("max_linear_speed", &Body::max_linear_speed);
+  field("max_angular_speed", &Body::max_angular_speed);
+  field("user_data", &Body::user_data);
 }
 
 /* --- reading --------------------------------------------------------------------------------- */
@@ -66,7 +72,15 @@ template <typename Field> void each_field(const Body *, Field &&field)
 void read_value(const JsonValue &json, std::string &value) { value = json.text(); }
 void read_value(const JsonValue &json, float &value) { value = json.number(); }
 void read_value(const JsonValue &json, uint32_t &value) { value = json.unsigned_integer(); }
+void read_value(const JsonValue &json, uint64_t &value) { value = json.long_unsigned_integer(); }
 void read_value(const JsonValue &json, bool &value) { value = json.boolean(); }
+void read_value(const JsonValue &json, Axes &value)
+{
+  for (size_t i = 0; i < json.array_size(); ++i)
+    (json.element(i).choice(axis_names) == 0   ? value.x
+     : json.element(i).choice(axis_names) == 1 ? value.y
+                                               : value.z) = true;
+}
 void read_value(const JsonValue &json, Vec3 &value) { value = json.vec3(); }
 void read_value(const JsonValue &json, Point &value) { value = json.point(); }
 void read_value(const JsonValue &json, Quat &value) { value = json.quat(); }
@@ -162,6 +176,15 @@ std::string quoted(const std::string &text)
 }
 
 std::string written(const std::string &value) { return quoted(value); }
+std::string written(uint64_t value) { return fmt::format("{}", value); }
+std::string written(const Axes &axes)
+{
+  std::string text;
+  for (const auto &[locked, name] :
+       {std::pair(axes.x, axis_names[0]), std::pair(axes.y, axis_names[1]), std::pair(axes.z, axis_names[2])})
+    if (locked) text += fmt::format("{}\"{}\"", text.empty() ? "" : ", ", name);
+  return "[" + text + "]";
+}
 std::string written(bool value) { return value ? "true" : "false"; }
 template <typename Enum>
 requires std::is_enum_v<Enum> std::string written(Enum value)

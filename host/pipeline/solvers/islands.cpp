@@ -85,6 +85,8 @@ struct Rows {
   bool bounces() const { return HAS_FEATURE(&parameters, RESTITUTION); }
   uint32_t bodies() const { return static_cast<uint32_t>(velocity.size() / 2); }
   bool moves(uint32_t body) const { return velocity[2 * body].w > 0; }
+  double locks(uint32_t body) const { return inertia[2 * body + 1].z; }
+  vec3 free_part(uint32_t body, const vec3 &v) const { return without_locked_axes(v, to_uint(locks(body))); }
 
   void write(Memory &memory) const
   {
@@ -324,10 +326,11 @@ void Island::assemble()
       if (!rows_.moves(body)) continue;
       const vec3 turn = symmetric_times(load_inertia(rows_.inertia.data(), body),
                                         second ? list_[r].r_cross_n_b : list_[r].r_cross_n_a);
+      const vec3 pushing = rows_.free_part(body, list_[r].direction);
       for (size_t s = r; s < n; ++s) {
         if (list_[s].a != body && list_[s].b != body) continue;
         const bool other = list_[s].b == body;
-        const double value = rows_.velocity[2 * body].w * dot3(list_[r].direction, list_[s].direction) +
+        const double value = rows_.velocity[2 * body].w * dot3(pushing, list_[s].direction) +
                              dot3(turn, other ? list_[s].r_cross_n_b : list_[s].r_cross_n_a);
         problem_.matrix[r * n + s] += other == second ? value : -value;
       }
@@ -344,7 +347,7 @@ void Island::push(uint32_t body, const vec3 &direction, const vec3 &turn, double
 {
   if (!rows_.moves(body)) return;
   spatial_velocity m = load_velocity(rows_.velocity.data(), body);
-  m.linear = add_scaled(m.linear, direction, m.inverse_mass * impulse);
+  m.linear = pushed(m.linear, rows_.locks(body), direction, m.inverse_mass * impulse);
   m.angular = add_scaled(m.angular, symmetric_times(load_inertia(rows_.inertia.data(), body), turn), impulse);
   store_velocity(rows_.velocity.data(), body, m);
 }

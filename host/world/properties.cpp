@@ -1,0 +1,154 @@
+/* properties.cpp - properties of bodies that change while a world runs.
+ *
+ * The scene has the new values at once, and the rows of the bodies that follow from them are written: mass, flags,
+ * filters. The inverse mass and the gravity factor also stand in the rows of the velocity; a command sets them there.
+ * A feature or a material that the world lacks lays the buffers out anew, as a new body that brings one does
+ * (bodies.cpp).
+ */
+#include <algorithm>
+#include <map>
+
+#include <fmt/format.h>
+
+#include <tandem/error.h>
+
+#include "host/pipeline/broadphases/broadphase.h"
+#include "host/world/implementation.h"
+#include "host/world/placed_bodies.h"
+#include "shared/commands/command_codes.h"
+
+namespace tandem {
+namespace {
+
+/* Rows between two that change are written with them if they are so few: a transfer takes longer. */
+constexpr uint32_t most_between = 32;
+
+template <class T> void take(const std::optional<T> &given, T &field)
+{
+  if (given) field = *given;
+}
+
+void change(Body &body, const BodyProperties &properties)
+{
+  take(properties.type, body.type);
+  take(properties.trigger, body.trigger);
+  take(properties.continuous, body.continuous);
+  take(properties.material, body.material);
+  take(properties.mass, body.mass);
+  take(properties.inertia, body.inertia);
+  take(properties.infinite_inertia, body.infinite_inertia);
+  take(properties.gravity_factor, body.gravity_factor);
+  take(properties.linear_damping, body.linear_damping);
+  take(properties.angular_damping, body.angular_damping);
+  take(properties.filter_group, body.filter_group);
+  take(properties.filter_mask, body.filter_mask);
+  take(properties.linear_locks, body.linear_locks);
+  take(properties.angular_locks, body.angular_locks);
+  take(properties.max_linear_speed, body.max_linear_speed);
+  take(properties.max_angular_speed, body.max_angular_speed);
+  take(properties.user_data, body.user_data);
+}
+
+struct ChangedBodies {
+  std::vector<uint32_t> slots; /* ascending */
+  std::vector<Body> bodies;
+};
+
+/* Several entries for one body are taken in their order. */
+ChangedBodies changed_by(const Scene &scene, const Settings &settings, std::span<const uint32_t> slots,
+                         std::span<const BodyProperties> properties)
+{
+  std::map<uint32_t, Body> changed;
+  for (size_t i = 0; i < slots.size(); ++i) {
+    Body &body = changed.try_emplace(slots[i], scene.bodies[slots[i]]).first->second;
+    change(body, properties[i]);
+    validate(scene, body, slots[i], "set_properties");
+    check_solver(settings, body, slots[i], "set_properties");
+  }
+  ChangedBodies result;
+  for (auto &[slot, body] : changed) {
+    result.slots.push_back(slot);
+    result.bodies.push_back(std::move(body));
+  }
+  return result;
+}
+
+/* Calls work(first, end) for each range of indices that is written at once. */
+template <class Work> void for_each_range(std::span<const uint32_t> sorted, const Work &work)
+{
+  for (size_t at = 0; at < sorted.size();) {
+    size_t last = at;
+    while (last + 1 < sorted.size() && sorted[last + 1] - sorted[last] <= most_between) ++last;
+    work(sorted[at], sorted[last] + 1);
+    at = last + 1;
+  }
+}
+
+CommandList::Rows mass_command_of(const Body &body)
+{
+  const float keeps = body.type == BodyType::fixed ? 0 : 1;
+  return {float4{inverse_mass_of(body), body.gravity_factor, keeps, 0}, float4{0, 0, 0, 0}, float4{0, 0, 0, 0}};
+}
+
+} // namespace
+
+BodyProperties properties_of(const Body &body)
+{
+  return {body.type,           body.trigger,         body.continuous,       body.material,
+          body.mass,           body.inertia,         body.infinite_inertia, body.gravity_factor,
+          body.linear_damping, body.angular_damping, body.filter_group,     body.filter_mask,
+          body.linear_locks,   body.angular_locks,   body.max_linear_speed, body.max_angular_speed,
+          body.user_data};
+}
+
+void World::Implementation::set_properties(std::span<const BodyId> ids, std::span<const BodyProperties> properties)
+{
+  if (ids.size() != properties.size())
+    throw InputError(fmt::format("set_properties: {} handles and {} entries; one entry for each handle is needed",
+                                 ids.size(), properties.size()));
+  std::vector<uint32_t> given;
+  for (const BodyId &id : ids) given.push_back(slots.slot_of("set_properties", id));
+  const ChangedBodies changed = changed_by(scene, settings, given, properties);
+  if (ids.empty()) return;
+  settle(); /* what was called before comes before */
+  wake_bodies(changed.slots, true);
+  buffers.make_ready(sizes());
+  commands.prepare(changed.slots.size());
+  PlacedBodies placed(scene, changed.slots, changed.bodies);
+  try {
+    if (brings_features(changed.slots)) lay_out_anew();
+    else write_properties(changed.slots);
+  } catch (...) {
+    known_kinds.clear(); /* some may be of these bodies alone */
+    throw;
+  }
+  placed.keep();
+  ring.forget("properties of bodies were changed");
+  if (settings.sleeping) recount_motion();
+  for (const uint32_t slot : changed.slots)
+    if (slots.status()[slot] != BodyStatus::quarantined)
+      commands.add(index_of_body[slot], COMMAND_SET_MASS, mass_command_of(scene.bodies[slot]));
+}
+
+void World::Implementation::write_properties(std::span<const uint32_t> changed)
+{
+  std::vector<uint32_t> indices;
+  for (const uint32_t slot : changed) indices.push_back(index_of_body[slot]);
+  std::sort(indices.begin(), indices.end());
+  StagedUploads uploads;
+  for_each_range(indices, [&](uint32_t first, uint32_t end) {
+    stage_properties(uploads, scene, std::span(special.order).subspan(first, end - first), first, slots.status());
+  });
+  for (const uint32_t slot : changed)
+    if (scene.shapes[scene.bodies[slot].shape].compound) {
+      const size_t entry = 2 * size_t{index_of_body[slot]} + 1; /* of body_tree: the first child */
+      stage_child_properties(uploads, scene, slot, memory.read<uint32_t>(Buffer::body_tree, 1, entry).front(),
+                             slots.status());
+    }
+  uploads.prepare(memory);
+  ++state;
+  uploads.write(memory);
+  forget_kept(memory);
+}
+
+} // namespace tandem
