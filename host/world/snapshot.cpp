@@ -26,6 +26,18 @@ template <Is<ShapeSlots::Slot> T> auto fields_of(T &record)
   return std::tie(generation, exists, body);
 }
 
+template <Is<SleepingPair> T> auto fields_of(T &record)
+{
+  auto &[a, b, words] = record;
+  return std::tie(a, b, words);
+}
+
+template <Is<SleepingIsland> T> auto fields_of(T &record)
+{
+  auto &[bodies, pairs] = record;
+  return std::tie(bodies, pairs);
+}
+
 template <Is<BodySlots::Free> T> auto fields_of(T &record)
 {
   auto &[slot, since] = record;
@@ -166,18 +178,6 @@ void check_shapes(const ByteReader &reader, const SnapshotContents &contents)
   }
   for (const uint32_t shape : contents.made_shapes)
     if (shape >= contents.scene.shapes.size()) reader.fail("a shape of one body alone does not exist");
-}
-
-template <Is<SleepingPair> T> auto fields_of(T &record)
-{
-  auto &[a, b, words] = record;
-  return std::tie(a, b, words);
-}
-
-template <Is<SleepingIsland> T> auto fields_of(T &record)
-{
-  auto &[bodies, pairs] = record;
-  return std::tie(bodies, pairs);
 }
 
 /* Each body behind those awake belongs to one island, and is dynamic. */

@@ -163,11 +163,28 @@ SHARED void near_sleepers_write_item(GLOBAL const Parameters *parameters, GLOBAL
   for (uint pair = pair_start[i]; pair < end && pair < capacity; ++pair) pairs.b[pair] = i;
 }
 
-/* Notes the sleepers that were touched, with the pairs needed, before the step's own pairs take the place of these. */
-SHARED void note_touched_sleepers_item(GLOBAL const uint *pair_a, GLOBAL const uint *manifold_count,
+/* How far a point of the body that is awake comes nearer to the sleeper within the step, at most. normal: from the
+ * sleeper to the body. */
+SHARED real approach_to_sleeper(GLOBAL const Parameters *parameters, GLOBAL const float4 *body_velocity, real radius,
+                                vec3 normal, uint body)
+{
+  spatial_velocity m = load_velocity(body_velocity, body);
+  real closing = maximum(R(0.0), R(0.0) - dot3(m.linear, normal)) + radius * length_of(m.angular);
+  return parameters->step * (closing + parameters->step * length_of(gravity_of(parameters)));
+}
+
+/* Contacts are made ahead of touching; those that stay out of reach in this step wake nobody. Notes the sleepers that
+ * were touched, before the step's own pairs take the place of these. */
+SHARED void note_touched_sleepers_item(GLOBAL const Parameters *parameters, GLOBAL const uint *pair_a,
+                                       GLOBAL const uint *pair_b, GLOBAL const float4 *body_shape,
+                                       GLOBAL const float4 *body_velocity, read_manifolds manifolds,
                                        GLOBAL uint *touched_sleeper, GLOBAL uint *counts, uint i)
 {
-  uint touched = (manifold_count[i] & (TO_FOLLOW - 1u)) != 0u ? 1u : 0u;
+  uint points = manifolds.count[i] & (TO_FOLLOW - 1u), touched = 0u;
+  real reach = approach_to_sleeper(parameters, body_velocity, load_float4(body_shape, pair_b[i]).w,
+                                   xyz(load_float4(manifolds.normal, i)), pair_b[i]);
+  for (uint k = 0u; k < points; ++k)
+    if (load_float4(manifolds.points, k * counts[CAPACITY_PAIRS] + i).w <= reach) touched = 1u;
   touched_sleeper[i] = touched ? pair_a[i] : INDEX_NONE;
   if (touched) ATOMIC_ADD(counts + COUNT_TOUCHED_SLEEPERS, 1u);
 }

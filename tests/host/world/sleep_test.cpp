@@ -161,7 +161,7 @@ TEST_CASE("forces, velocities and poses that are set wake; reading does not", "[
   world.read_body(world.id_of(1));
   world.bodies();
   world.statistics();
-  world.cast_rays(std::vector<Ray>{{{0, 10, 0}, {0, -20, 0}}});
+  world.cast_rays(std::vector<Ray>{{{0, 10, 0}, {0, -20, 0}, 1, {}}});
   CHECK(world.statistics().asleep == 12);
   world.add_force(world.id_of(1), {{0, 1, 0}});
   CHECK(world.statistics().asleep == 9);
@@ -259,7 +259,8 @@ TEST_CASE("a change of gravity wakes all, and bodies fall as it says", "[sanitiz
   CHECK(world.statistics().asleep == 0);
   const double start = world.bodies()[3].position[1];
   for (int k = 0; k < 60; ++k) world.step();
-  CHECK(world.bodies()[3].position[1] - start == Approx(1).epsilon(1e-3)); /* half of 2 m/s^2, for a second */
+  /* half of 2 m/s^2, for a second; penetrations that the weight had made push a little */
+  CHECK(world.bodies()[3].position[1] - start == Approx(1).margin(0.03));
   const float infinite = std::numeric_limits<float>::infinity();
   CHECK_THROWS_WITH(world.set_gravity({0, infinite, 0}), ContainsSubstring("set_gravity: gravity is"));
 }
@@ -303,7 +304,7 @@ TEST_CASE("poses agree with those of a world that never sleeps where nothing wou
 TEST_CASE("queries find sleeping bodies as if they were awake, with every structure", "[sanitizer]")
 {
   std::vector<Ray> rays;
-  for (int k = 0; k < 40; ++k) rays.push_back({{0.37 * k - 2, 10, 0.1}, {0.3f, -12, 0.1f}});
+  for (int k = 0; k < 40; ++k) rays.push_back({{0.37 * k - 2, 10, 0.1}, {0.3f, -12, 0.1f}, 1, {}});
   for (const Broadphase broadphase : {Broadphase::grid, Broadphase::bvh, Broadphase::brute_force}) {
     Settings settings = sleepy();
     settings.broadphase = broadphase;
