@@ -92,6 +92,7 @@ enum {
   COUNT_FIRST_MISBATCHED,
   COUNT_EVENTS,      /* of the step; 0 unless it was committed */
   COUNT_PAIR_EVENTS, /* the same of pairs that come near, stay or leave */
+  COUNT_MOVED,       /* bodies that the step has moved, with Settings::moved_bodies */
   KIND_START,        /* the start of each kind in pair_of_kind, and the end of the last one */
   /* The ranges of the bodies sorted by colour, stored as those of COLOR_START. */
   BODY_COLOR_START = KIND_START + PAIR_KIND_NONE + 1,

@@ -197,6 +197,7 @@ void validate(const Settings &settings)
   check_number("slop", settings.slop, "m", true);
   check_number("slop share", settings.slop_share, "(no unit)", true);
   check_number("restitution speed", settings.restitution_speed, "m/s", true);
+  check_number("hit speed", settings.hit_speed, "m/s", true);
 }
 
 } // namespace tandem

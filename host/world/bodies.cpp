@@ -23,6 +23,7 @@
 #include "host/pipeline/setting_rows.h"
 #include "host/runtime/interface/floating_point.h"
 #include "host/runtime/interface/module.h"
+#include "host/world/contact_events.h"
 #include "host/world/implementation.h"
 #include "host/world/placed_bodies.h"
 #include "host/world/reordered_rows.h"
@@ -330,10 +331,16 @@ void World::Implementation::stage_arrival(StagedUploads &uploads, const Arrival 
     if (is_new.contains(special.order[index])) stage_states(uploads, scene, std::span(&special.order[index], 1), index);
 }
 
+std::vector<uint32_t> World::Implementation::moved_bodies()
+{
+  return moved_before ? *moved_before : download_moved_bodies(memory, events_order());
+}
+
 /* Makes room, tables and kernels for the new bodies, and moves the others to their new places. */
 void World::Implementation::lay_out_anew(const Arrival &arrival)
 {
   buffers.make_ready(sizes());
+  if (settings.moved_bodies && statistics.steps > 0) moved_before = moved_bodies(); /* the list may lose its place */
   const std::vector<uint32_t> old_order = special.order;
   std::vector<uint32_t> order = order_with(special, arrival.appended);
   std::vector<float4> normals = normals_of_pairs(memory, bodies());

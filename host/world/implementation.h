@@ -110,6 +110,7 @@ struct World::Implementation {
   {
     return order_of_events.empty() ? special.order : order_of_events;
   }
+  std::vector<uint32_t> moved_bodies();
   BodyRegion region_of(uint32_t index) const;
   std::vector<BodyId> create(std::span<const Body> bodies);
   void destroy(std::span<const BodyId> ids);
@@ -158,6 +159,8 @@ struct World::Implementation {
   std::vector<std::pair<uint32_t, BodyRecord>> taken_out;
   std::vector<uint32_t> index_of_body; /* by slot; for a free one, that of its last body */
   std::vector<uint32_t> order_of_events; /* the order that the last step had, if it has changed since; else empty */
+  /* What the last step has moved, if the buffers were laid out anew since. */
+  std::optional<std::vector<uint32_t>> moved_before;
   size_t uploaded_shapes = 0, uploaded_materials = 0; /* of the scene, that the tables hold */
   /* Kinds of bodies that were in the scene together when its features were last derived; filled by the first call that
    * creates or changes some. */

@@ -135,6 +135,7 @@ void World::Implementation::accept()
   turned = false;
   taken_out.clear();
   order_of_events.clear();
+  moved_before.reset();
   ++statistics.steps;
   plan.rounds = std::clamp<uint32_t>(plan.known[COUNT_ROUNDS] + 3, 4, most_rounds);
   plan.colors = std::min(plan.known[COUNT_COLORS] + 1, COLOR_LIMIT);

@@ -251,6 +251,25 @@ std::vector<ContactEvent> World::contact_events()
   });
 }
 
+std::vector<HitEvent> World::hit_events()
+{
+  if (!implementation_->settings.events) throw InputError("hit_events: there are none without Settings::events");
+  if (!implementation_->whole) return {};
+  return answer("the hit events", implementation_->slots.existing(), [&] {
+    return hits_among(
+        download_events(implementation_->memory, implementation_->scene, implementation_->events_order()),
+        implementation_->settings.hit_speed);
+  });
+}
+
+std::vector<uint32_t> World::moved_bodies()
+{
+  if (!implementation_->settings.moved_bodies)
+    throw InputError("moved_bodies: there are none without Settings::moved_bodies");
+  if (!implementation_->whole) return {};
+  return answer("the moved bodies", implementation_->slots.existing(), [&] { return implementation_->moved_bodies(); });
+}
+
 std::vector<PairEvent> World::pair_events()
 {
   if (!implementation_->settings.pair_events)
