@@ -293,9 +293,7 @@ std::vector<uint32_t> order_with(const Specialisation &special, const std::array
 /* The contents of cached_normal that steps would have left if the scene had had trees before. */
 std::vector<float4> normals_of_pairs(Memory &memory, uint32_t bodies)
 {
-  if (memory.bytes(Buffer::cached_normal) > 0) return {};
-  return memory.read<float4>(Buffer::manifold_normal,
-                             memory.read<uint32_t>(Buffer::cached_start, 1, bodies).front());
+  return memory.read<float4>(Buffer::manifold_normal, memory.read<uint32_t>(Buffer::cached_start, 1, bodies).front());
 }
 
 } // namespace
@@ -343,10 +341,11 @@ void World::Implementation::lay_out_anew(const Arrival &arrival)
   if (settings.moved_bodies && statistics.steps > 0) moved_before = moved_bodies(); /* the list may lose its place */
   const std::vector<uint32_t> old_order = special.order;
   std::vector<uint32_t> order = order_with(special, arrival.appended);
-  std::vector<float4> normals = normals_of_pairs(memory, bodies());
   StagedUploads uploads;
   stage_carried_rows(uploads, memory, buffers, old_order, order);
-  uploads.add(Buffer::cached_normal, std::move(normals));
+  /* An attempt that failed may have left the buffer without contents. */
+  if ((special.features & FEATURE_TREES) == 0)
+    uploads.add(Buffer::cached_normal, normals_of_pairs(memory, bodies()));
   std::vector<uint32_t> order_before = arrival.inserts() && order_of_events.empty() ? old_order : order_of_events;
   LayoutBackup backup(*this);
   plan_layout(arrival, std::move(order));
