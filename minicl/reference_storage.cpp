@@ -94,6 +94,16 @@ public:
                 bytes - done);
   }
 
+  /* The buffers may differ in size: whole numbers follow the reals of each. */
+  void copy(void *from, void *to, size_t bytes) override
+  {
+    const Layout source = layout_at(from), target = layout_at(to);
+    const size_t reals = std::min(bytes, source.reals_end);
+    std::memcpy(to, from, 2 * reals);
+    std::memcpy(static_cast<char *>(to) + target.reals_end + reals,
+                static_cast<const char *>(from) + source.reals_end + reals, bytes - reals);
+  }
+
   void read_reals(void *handle, size_t first, double *to, size_t count) override
   {
     std::copy_n(static_cast<const double *>(handle) + first, count, to);

@@ -80,7 +80,8 @@ enum {
   COUNT_DIRECT_ISLANDS,   /* islands that the solver `direct` solved in the last pass of the step */
   COUNT_DIRECT_LEFT,      /* constraints it left to the iterative rows: their islands are too large, or not finite */
   COUNT_DIRECT_STALLED,   /* islands, over the passes of the step, whose solve did not reach its tolerance */
-  COUNT_LENGTH,           /* length of a free-standing primitive (tests, benchmarks), or of a batch of queries or commands */
+  COUNT_LENGTH,           /* length of a free-standing primitive (tests, benchmarks), of a batch of queries, or of
+                             commands */
   COUNT_BODY_CONSTRAINTS, /* twice the constraints: each has two bodies */
   COUNT_OVERFLOW_BODY_CONSTRAINTS, /* twice the overflow constraints */
   COUNT_COLOR_STARTS,              /* always COLOR_LIMIT + 1: the colours and the overflow constraints */

@@ -42,6 +42,7 @@ public:
   /* Buffers of modules other than the pipeline that launches have written since the last begin_commit. */
   const std::vector<Buffer> &written_by_modules() const { return written_; }
   void set_observer(Observer observer) { observer_ = std::move(observer); }
+  const Observer &observer() const { return observer_; }
   void set_on_commit(std::function<void()> on_commit) { on_commit_ = std::move(on_commit); }
   void set_step(uint64_t step) { step_ = step; } /* for debuggers: host/runtime/interface/debug.h */
 

@@ -189,7 +189,8 @@ void Memory::upload(Buffer buffer, const void *from, size_t bytes, size_t offset
   }
   device->storage->write(device->handle, offset, from, bytes);
   for (Copy &copy : entry.copies)
-    if (copy.storage == &host_storage() && copy.valid) std::memcpy(static_cast<char *>(copy.handle) + offset, from, bytes);
+    if (copy.storage == &host_storage() && copy.valid)
+      std::memcpy(static_cast<char *>(copy.handle) + offset, from, bytes);
     else copy.valid = &copy == device;
 }
 
@@ -201,6 +202,42 @@ void Memory::download(Buffer buffer, void *to, size_t bytes, size_t offset)
   copy_in(entry, host_storage());
   for (Copy &copy : entry.copies)
     if (copy.valid) return copy.storage->read(copy.handle, offset, to, bytes);
+}
+
+void Memory::make_room(Buffer buffer, Storage &storage, KeptBytes &kept)
+{
+  Entry &entry = entries_[index_of(buffer)];
+  if (kept.storage_ == &storage && kept.capacity_ >= entry.bytes) return;
+  KeptBytes fresh;
+  fresh.handle_ = allocate(entry, entry.bytes, storage, nullptr);
+  fresh.storage_ = &storage;
+  fresh.capacity_ = entry.bytes;
+  kept = std::move(fresh);
+}
+
+/* Prefers the storage that has room already, then a device. */
+void Memory::keep(Buffer buffer, size_t bytes, KeptBytes &kept)
+{
+  kept.bytes_ = 0;
+  Entry &entry = entries_[index_of(buffer)];
+  if (bytes == 0 || entry.bytes == 0) return;
+  copy_in(entry, host_storage());
+  const Copy *source = nullptr;
+  for (const Copy &copy : entry.copies)
+    if (copy.valid && (!source || source->storage != kept.storage_)) source = &copy;
+  make_room(buffer, *source->storage, kept);
+  source->storage->copy(source->handle, kept.handle_, bytes);
+  kept.bytes_ = bytes;
+}
+
+void Memory::put_back(Buffer buffer, const KeptBytes &kept)
+{
+  if (kept.bytes_ == 0) return;
+  Entry &entry = entries_[index_of(buffer)];
+  Copy &target = copy_in(entry, *kept.storage_);
+  wait_for_readers(entry, *kept.storage_);
+  kept.storage_->copy(kept.handle_, target.handle, kept.bytes_);
+  for (Copy &copy : entry.copies) copy.valid = &copy == &target;
 }
 
 /* Prefers a copy in double: once the host has read a buffer, its floats are valid beside the doubles. */

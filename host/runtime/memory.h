@@ -16,6 +16,36 @@
 
 namespace tandem {
 
+/* The first bytes of a buffer at another time, in memory of a storage in which the buffer was valid. */
+class TANDEM_API KeptBytes {
+public:
+  KeptBytes() = default;
+  KeptBytes(KeptBytes &&other) noexcept { swap(other); }
+  KeptBytes &operator=(KeptBytes &&other) noexcept
+  {
+    swap(other);
+    return *this;
+  }
+  ~KeptBytes()
+  {
+    if (storage_) storage_->release(handle_);
+  }
+
+private:
+  friend class Memory;
+  void swap(KeptBytes &other) noexcept
+  {
+    std::swap(storage_, other.storage_);
+    std::swap(handle_, other.handle_);
+    std::swap(capacity_, other.capacity_);
+    std::swap(bytes_, other.bytes_);
+  }
+
+  Storage *storage_ = nullptr;
+  void *handle_ = nullptr;
+  size_t capacity_ = 0, bytes_ = 0;
+};
+
 /* Every storage given to acquire must outlive the memory. */
 class TANDEM_API Memory {
 public:
@@ -58,6 +88,13 @@ public:
     download(buffer, values.data(), elements * sizeof(T), first * sizeof(T));
     return values;
   }
+  /* Copies the first bytes of a buffer within a storage where it is valid, and back; nothing goes through the host.
+   * Of a buffer that the world lacks nothing is kept. make_room: allocates for the whole buffer, so that a later
+   * keep() need not. put_back: what lies behind these bytes is undefined then. */
+  void make_room(Buffer buffer, Storage &storage, KeptBytes &kept);
+  void keep(Buffer buffer, size_t bytes, KeptBytes &kept);
+  void put_back(Buffer buffer, const KeptBytes &kept);
+
   /* Scalars of a buffer of float4s or reals, in double if a backend has left them in double. */
   std::vector<double> read_reals(Buffer buffer, size_t count, size_t first = 0);
   /* Writes doubles if the buffer is now in double; otherwise they are rounded to floats. */

@@ -219,7 +219,7 @@ void stage_masses(StagedUploads &uploads, const Scene &scene, const std::vector<
 }
 
 void stage_shapes(StagedUploads &uploads, const Scene &scene, const std::vector<uint32_t> &order, uint32_t first_child,
-                   const std::vector<BodyStatus> &status)
+                  const std::vector<BodyStatus> &status)
 {
   const HullNumbers hulls = hull_numbers(scene);
   ShapeRows bodies(scene, hulls), children(scene, hulls);
@@ -235,8 +235,8 @@ void stage_shapes(StagedUploads &uploads, const Scene &scene, const std::vector<
   bodies.stage(uploads, 0);
 }
 
-void stage_new_bodies(StagedUploads &uploads, const Scene &scene, const HullNumbers &hulls, std::span<const uint32_t> bodies,
-                       uint32_t first)
+void stage_new_bodies(StagedUploads &uploads, const Scene &scene, const HullNumbers &hulls,
+                      std::span<const uint32_t> bodies, uint32_t first)
 {
   MassRows masses;
   StateRows states;
@@ -274,6 +274,17 @@ void stage_child_properties(StagedUploads &uploads, const Scene &scene, uint32_t
   for (const Child &child : scene.shapes[scene.bodies[body].shape].compound->children)
     properties.add(shape_of_child(scene.bodies[body], child), status_of(status, body));
   properties.stage(uploads, first_child);
+}
+
+void stage_fixed_rows(StagedUploads &uploads, const Scene &scene, const HullNumbers &hulls, uint32_t body,
+                      uint32_t index, BodyStatus status)
+{
+  MassRows masses;
+  ShapeRows shapes(scene, hulls);
+  masses.add(scene, scene.bodies[body]);
+  shapes.add(shape_of_body(scene, scene.bodies[body]), status);
+  masses.stage(uploads, index);
+  shapes.stage(uploads, index);
 }
 
 void stage_states(StagedUploads &uploads, const Scene &scene, std::span<const uint32_t> bodies, uint32_t first)
@@ -373,8 +384,7 @@ std::vector<BodyState> download_bodies(Memory &memory, const std::vector<uint32_
              orientation = memory.read<float4>(Buffer::body_orientation, n);
   const auto velocity = memory.read<float4>(Buffer::body_velocity, 2 * n);
   std::vector<BodyState> states(n);
-  for (size_t i = 0; i < n; ++i)
-    states[order[i]] = state_of(&position[2 * i], orientation[i], &velocity[2 * i]);
+  for (size_t i = 0; i < n; ++i) states[order[i]] = state_of(&position[2 * i], orientation[i], &velocity[2 * i]);
   return states;
 }
 

@@ -28,16 +28,19 @@ void stage_masses(StagedUploads &uploads, const Scene &scene, const std::vector<
  * first_child on. Poses are uploaded even for bodies with pair tests of their own, because any of them may meet a shape
  * that has none. status: by body of the scene; empty: all are present. */
 void stage_shapes(StagedUploads &uploads, const Scene &scene, const std::vector<uint32_t> &order, uint32_t first_child,
-                   const std::vector<BodyStatus> &status = {});
+                  const std::vector<BodyStatus> &status = {});
 /* Stages all rows of bodies without children, to the indices from `first` on. */
-void stage_new_bodies(StagedUploads &uploads, const Scene &scene, const HullNumbers &hulls, std::span<const uint32_t> bodies,
-                       uint32_t first);
+void stage_new_bodies(StagedUploads &uploads, const Scene &scene, const HullNumbers &hulls,
+                      std::span<const uint32_t> bodies, uint32_t first);
 /* Stages what follows from properties of bodies (BodyProperties): mass, flags and filter of consecutive bodies, and
  * flags and filters of the children of one. */
 void stage_properties(StagedUploads &uploads, const Scene &scene, std::span<const uint32_t> bodies, uint32_t first,
                       const std::vector<BodyStatus> &status);
 void stage_child_properties(StagedUploads &uploads, const Scene &scene, uint32_t body, uint32_t first_child,
                             const std::vector<BodyStatus> &status);
+/* Stages what a call wrote of a body and no step changes, but for the row of its tree. */
+void stage_fixed_rows(StagedUploads &uploads, const Scene &scene, const HullNumbers &hulls, uint32_t body,
+                      uint32_t index, BodyStatus status);
 /* Stages the initial state of bodies, to the indices from `first` on. */
 void stage_states(StagedUploads &uploads, const Scene &scene, std::span<const uint32_t> bodies, uint32_t first);
 /* Makes slots free: points at rest that take part in nothing, where the bodies were. */

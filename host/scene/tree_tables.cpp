@@ -143,8 +143,8 @@ uint32_t children_of(const Shape &shape) { return shape.compound ? count_of(shap
 
 TreeTables tree_tables(const Scene &scene) { return TableBuilder(scene).build(); }
 
-void stage_trees(StagedUploads &uploads, const Scene &scene, const TreeTables &tables, const std::vector<uint32_t> &order,
-                  uint32_t first_child, const std::vector<BodyStatus> &status)
+void stage_trees(StagedUploads &uploads, const Scene &scene, const TreeTables &tables,
+                 const std::vector<uint32_t> &order, uint32_t first_child, const std::vector<BodyStatus> &status)
 {
   std::vector<uint32_t> body_trees;
   uint32_t next_child = first_child;

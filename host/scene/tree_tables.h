@@ -38,7 +38,7 @@ TreeTables tree_tables(const Scene &scene);
 uint32_t children_of(const Shape &shape);
 
 /* order: that of the bodies in the buffers. first_child: the index of the first child among the shapes. */
-void stage_trees(StagedUploads &uploads, const Scene &scene, const TreeTables &tables, const std::vector<uint32_t> &order,
-                  uint32_t first_child, const std::vector<BodyStatus> &status = {});
+void stage_trees(StagedUploads &uploads, const Scene &scene, const TreeTables &tables,
+                 const std::vector<uint32_t> &order, uint32_t first_child, const std::vector<BodyStatus> &status = {});
 
 } // namespace tandem

@@ -84,6 +84,7 @@ std::unique_ptr<World> Lockstep::make_world(size_t index) const
 {
   Placement placement = request_.placement;
   placement.on = request_.backends[index];
+  if (!request_.snapshot.empty()) return std::make_unique<World>(request_.snapshot, placement);
   return std::make_unique<World>(scene_, request_.settings, placement);
 }
 
@@ -96,6 +97,7 @@ template <class Visit> void Lockstep::step(size_t index, World &world, uint64_t 
     if (request_.inject_fault) request_.inject_fault(index, step, world, launch);
     visit(launch, number++);
   });
+  if (request_.before_step) request_.before_step(world, step);
   world.step();
   world.set_observer(nullptr);
 }

@@ -78,8 +78,7 @@ void stage_carried_rows(StagedUploads &uploads, Memory &memory, const StepBuffer
   for (const CarriedBuffer &carried : buffers.carried()) stage_reordered(uploads, memory, rows, carried.now);
   for (size_t i = buffer_count; i < buffers.needs().touched.size(); ++i) {
     const Lifetime lifetime = row_of(buffer_at(i)).lifetime;
-    if (lifetime == Lifetime::SCENE || lifetime == Lifetime::KEPT)
-      stage_reordered(uploads, memory, rows, buffer_at(i));
+    if (lifetime == Lifetime::SCENE || lifetime == Lifetime::KEPT) stage_reordered(uploads, memory, rows, buffer_at(i));
   }
   const auto pairs = memory.read<uint32_t>(Buffer::cached_start, 1, old_order.size()).front();
   uploads.add(Buffer::cached_b, rows.indices_of(memory, Buffer::cached_b, pairs));
@@ -224,10 +223,17 @@ std::vector<BodyId> World::Implementation::create(std::span<const Body> given)
   slots.prepare_growth(arrival.new_slots());
   index_of_body.reserve(slots.count() + arrival.new_slots());
   special.order.reserve(bodies() + arrival.new_slots());
+  std::vector<RosterChange> changes = changes_of(arrival);
+  std::string reason = "bodies were created that the buffers had no room or no tables for";
   PlacedBodies added(scene, arrival.slots, given);
   try {
-    if (brings_tables(arrival)) lay_out_anew(arrival);
-    else place_among_others(arrival);
+    if (brings_tables(arrival)) {
+      lay_out_anew(arrival);
+      ring.forget(std::move(reason));
+    } else {
+      place_among_others(arrival);
+      ring.note(changes);
+    }
   } catch (...) {
     known_kinds.clear(); /* some may be of these bodies alone */
     throw;
@@ -235,6 +241,24 @@ std::vector<BodyId> World::Implementation::create(std::span<const Body> given)
   added.keep();
   for (size_t i = 0; i < ids.size(); ++i) ids[i] = slots.id_of(arrival.slots[i]);
   return ids;
+}
+
+/* For the states that the ring keeps: what the new bodies replace. */
+std::vector<RosterChange> World::Implementation::changes_of(const Arrival &arrival)
+{
+  std::vector<RosterChange> changes;
+  if (ring.size() == 0) return changes;
+  ring.prepare_changes(arrival.slots.size());
+  for (const uint32_t slot : arrival.slots) {
+    RosterChange &change = changes.emplace_back();
+    change.slot = slot;
+    if (slot >= scene.bodies.size()) continue;
+    change.before = scene.bodies[slot];
+    if (!has_tree(scene.shapes[change.before->shape]) || memory.bytes(Buffer::body_tree) == 0) continue;
+    const auto row = memory.read<uint32_t>(Buffer::body_tree, 2, 2 * size_t{index_of_body[slot]});
+    change.tree = {row[0], row[1]};
+  }
+  return changes;
 }
 
 /* Writes the rows of bodies that all fit between and behind the others. New ones are out of every kernel's range until
@@ -381,8 +405,7 @@ std::vector<uint32_t> World::Implementation::distinct_indices(const char *call, 
   std::vector<uint32_t> indices = indices_of(call, ids);
   std::sort(indices.begin(), indices.end());
   const auto twice = std::adjacent_find(indices.begin(), indices.end());
-  if (twice != indices.end())
-    throw InputError(fmt::format("{}: body {} is given twice", call, special.order[*twice]));
+  if (twice != indices.end()) throw InputError(fmt::format("{}: body {} is given twice", call, special.order[*twice]));
   return indices;
 }
 
@@ -394,6 +417,7 @@ void World::Implementation::destroy(std::span<const BodyId> ids)
   buffers.make_ready(sizes());
   for (size_t region = 0; region < regions; ++region)
     slots.prepare_freeing(static_cast<BodyRegion>(region), indices.size());
+  ring.prepare_changes(indices.size());
   StagedUploads uploads;
   for_each_run(indices, [&](size_t first, size_t count) {
     stage_free_rows(uploads, indices[first], static_cast<uint32_t>(count));
@@ -405,6 +429,7 @@ void World::Implementation::destroy(std::span<const BodyId> ids)
   for (const uint32_t index : indices) {
     shapes.forget(special.order[index]);
     slots.free(special.order[index], region_of(index), statistics.steps);
+    ring.note({special.order[index], std::nullopt, std::nullopt});
   }
 }
 

@@ -21,11 +21,10 @@ uint32_t BodySlots::slot_of(const char *call, const BodyId &id) const
         fmt::format("{}: there is no body {} of generation {}; the world has had {} bodies at the same time at most",
                     call, id.index, id.generation, count()));
   if (slots_[id.index].generation != id.generation || !exists(id.index))
-    throw InputError(fmt::format("{}: body {} of generation {} does not exist any more; {}", call, id.index,
-                                 id.generation,
-                                 exists(id.index)
-                                     ? fmt::format("its index now belongs to generation {}", slots_[id.index].generation)
-                                     : "it was destroyed"));
+    throw InputError(fmt::format(
+        "{}: body {} of generation {} does not exist any more; {}", call, id.index, id.generation,
+        exists(id.index) ? fmt::format("its index now belongs to generation {}", slots_[id.index].generation)
+                         : "it was destroyed"));
   return id.index;
 }
 

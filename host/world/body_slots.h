@@ -10,9 +10,11 @@
  */
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include <tandem/bodies.h>
@@ -26,13 +28,29 @@ enum class BodyRegion : uint8_t { half_spaces, large, small };
 
 class BodySlots {
 public:
+  struct Slot {
+    uint32_t generation = 1;
+  };
+  struct Free {
+    uint32_t slot;
+    uint64_t since; /* steps made when it became free */
+  };
+  using Queues = std::array<std::vector<Free>, 3>; /* by region */
+
   explicit BodySlots(uint32_t bodies) : slots_(bodies), status_(bodies, BodyStatus::present) {}
+  /* As a snapshot holds them; the two lists have the same length. */
+  BodySlots(std::vector<Slot> slots, std::vector<BodyStatus> status, Queues queues)
+      : slots_(std::move(slots)), status_(std::move(status)), queues_(std::move(queues)),
+        free_(static_cast<uint32_t>(std::count(status_.begin(), status_.end(), BodyStatus::free)))
+  {}
 
   uint32_t count() const { return static_cast<uint32_t>(slots_.size()); }
   uint32_t existing() const { return count() - free_; }
   bool exists(uint32_t slot) const { return slot < count() && status_[slot] != BodyStatus::free; }
   BodyId id_of(uint32_t slot) const { return {slot, slots_[slot].generation}; }
   const std::vector<BodyStatus> &status() const { return status_; }
+  const std::vector<Slot> &slots() const { return slots_; }
+  const Queues &queues() const { return queues_; }
 
   /* Throws InputError that says what a stale or unknown handle is. */
   uint32_t slot_of(const char *call, const BodyId &id) const;
@@ -49,17 +67,9 @@ public:
   void release(uint32_t slot) { status_[slot] = BodyStatus::present; } /* a quarantine was undone */
 
 private:
-  struct Slot {
-    uint32_t generation = 1;
-  };
-  struct Free {
-    uint32_t slot;
-    uint64_t since; /* steps made when it became free */
-  };
-
   std::vector<Slot> slots_;
   std::vector<BodyStatus> status_;
-  std::array<std::vector<Free>, 3> queues_; /* by region */
+  Queues queues_;
   uint32_t free_ = 0;
 };
 

@@ -51,8 +51,9 @@ void check_rotation(const char *call, size_t index, const Quat &q)
   double square = 0;
   for (const float x : q) square += double{x} * x;
   if (!(std::abs(square - 1) < 2e-3))
-    refuse_entry(call, index,
-           fmt::format("orientation is [{}, {}, {}, {}]; a quaternion of length 1 is needed", q[0], q[1], q[2], q[3]));
+    refuse_entry(
+        call, index,
+        fmt::format("orientation is [{}, {}, {}, {}]; a quaternion of length 1 is needed", q[0], q[1], q[2], q[3]));
 }
 
 void check(const char *call, size_t index, const Pose &pose)
@@ -90,8 +91,8 @@ void check(const char *call, size_t index, const Force &force)
 template <class Entry> void check_entries(const char *call, size_t ids, std::span<const Entry> entries)
 {
   if (ids != entries.size())
-    throw InputError(fmt::format("{}: {} handles and {} entries; one entry for each handle is needed", call, ids,
-                                 entries.size()));
+    throw InputError(
+        fmt::format("{}: {} handles and {} entries; one entry for each handle is needed", call, ids, entries.size()));
   for (size_t i = 0; i < entries.size(); ++i) check(call, i, entries[i]);
 }
 

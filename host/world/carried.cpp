@@ -7,10 +7,8 @@
 #include "host/scene/body_buffers.h"
 
 namespace tandem {
-namespace {
 
-/* The number of items that the last step left; later ones are of older steps. */
-size_t items_of(Memory &memory, Buffer buffer, uint32_t bodies, uint32_t pairs)
+size_t items_in_use(Memory &memory, Buffer buffer, uint32_t bodies, uint32_t pairs)
 {
   const BufferRow &row = row_of(buffer);
   switch (row.capacity) {
@@ -20,8 +18,6 @@ size_t items_of(Memory &memory, Buffer buffer, uint32_t bodies, uint32_t pairs)
   default: return memory.bytes(buffer) / (row.per_item * size_of(row.element));
   }
 }
-
-} // namespace
 
 /* The two sides of a buffer have consecutive numbers. */
 std::vector<CarriedBuffer> carried_buffers()
@@ -48,7 +44,7 @@ uint64_t hash_carried(Memory &memory, const std::vector<CarriedBuffer> &carried,
     const BufferRow &row = row_of(buffer.now);
     const bool needed = row.feature == 0 || (row.feature & features) != 0;
     if (needed && memory.bytes(buffer.now) > 0)
-      hash = hash_buffers(memory, {buffer.now}, items_of(memory, buffer.now, bodies, pairs), hash);
+      hash = hash_buffers(memory, {buffer.now}, items_in_use(memory, buffer.now, bodies, pairs), hash);
   }
   return hash;
 }

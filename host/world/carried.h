@@ -23,6 +23,9 @@ constexpr bool is_carried(Lifetime lifetime) { return lifetime == Lifetime::STAT
 
 TANDEM_API void turn_carried(Memory &memory, const std::vector<CarriedBuffer> &carried) noexcept;
 
+/* The number of items that the last step left; later ones are of older steps. pairs: in the contact cache. */
+size_t items_in_use(Memory &memory, Buffer buffer, uint32_t bodies, uint32_t pairs);
+
 /* A hash of these buffers, as far as a scene of these features has them. It is equal iff the next step will be
  * equal. */
 uint64_t hash_carried(Memory &memory, const std::vector<CarriedBuffer> &carried, uint32_t bodies, Features features);

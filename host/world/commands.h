@@ -20,6 +20,7 @@ public:
   using Rows = std::array<float4, 3>; /* shared/commands/command_codes.h */
 
   bool empty() const { return commands_.empty(); }
+  void clear() noexcept { commands_.clear(); }
   /* Ensures that so many more can be added without failing. */
   void prepare(size_t more);
   /* body: its index in the buffers. kind: COMMAND_. */

@@ -41,22 +41,38 @@ void check_solver(const Settings &settings, const Body &body, size_t index, cons
                                  where, index));
 }
 
+World::Implementation::Beginning World::Implementation::beginning_of(const Scene &given, const Settings &chosen,
+                                                                     const Placement &placement)
+{
+  const auto bodies = static_cast<uint32_t>(given.bodies.size());
+  const uint32_t pairs = first_capacity(given, chosen);
+  return {given,  resolved(chosen, given, placement), specialise(given, chosen), BodySlots(bodies),
+          bodies, pairs,                              false};
+}
+
 World::Implementation::Implementation(const Scene &given, const Settings &chosen, const Placement &placement)
-    : scene(given), settings(resolved(chosen, given, placement)), special(specialise(given, chosen)),
-      hulls(hull_sizes(given, cube_map_cells(chosen))), trees(tree_tables(given)), scene_features(special.features),
-      backends(placement, chosen.specialise ? special.features : all_features()), buffers(memory, backends),
-      slots(static_cast<uint32_t>(given.bodies.size())), launcher(memory, [this](Kernel kernel) -> Backend & { return backends.of(kernel); })
+    : Implementation(beginning_of(given, chosen, placement), placement)
+{}
+
+World::Implementation::Implementation(Beginning beginning, const Placement &placement, const PlacedBackends *shared)
+    : scene(std::move(beginning.scene)), settings(std::move(beginning.settings)),
+      special(std::move(beginning.special)), hulls(hull_sizes(scene, cube_map_cells(settings))),
+      trees(tree_tables(scene)), scene_features(special.features),
+      backends(shared ? PlacedBackends(*shared, features_run()) : PlacedBackends(placement, features_run())),
+      buffers(memory, backends),
+      slots(std::move(beginning.slots)),
+      launcher(memory, [this](Kernel kernel) -> Backend & { return backends.of(kernel); })
 {
   launcher.set_on_commit([this] { turn(); });
-  plan.forces = module_applies_forces();
-  if (!settings.specialise) special.features = all_features();
+  plan.forces = beginning.forces || module_applies_forces();
+  special.features = features_run();
   plan.features = special.features;
-  plan.bodies = static_cast<uint32_t>(scene.bodies.size());
-  scene_entries = entries_of({plan.bodies, special.unbounded, special.large});
+  plan.bodies = beginning.room;
+  scene_entries = entries_of({bodies(), special.unbounded, special.large});
   plan.capacity_cells = cells_for(plan.bodies);
-  plan.capacity_pairs = first_capacity(scene, settings);
+  plan.capacity_pairs = beginning.pairs;
   record_kernels();
-  place(placement);
+  place(backends.wanted());
   buffers.allocate(sizes());
   upload_scene();
   guess_counts();
@@ -140,8 +156,7 @@ void World::Implementation::stage_tables(StagedUploads &uploads)
 /* The counts that kernels never change. */
 void World::Implementation::stage_counts(StagedUploads &uploads) const
 {
-  for (const auto &[entry, value] : scene_entries)
-    uploads.add_count(static_cast<uint32_t>(entry), value);
+  for (const auto &[entry, value] : scene_entries) uploads.add_count(static_cast<uint32_t>(entry), value);
   uploads.add_count(CAPACITY_PAIRS, plan.capacity_pairs);
   uploads.add_count(CAPACITY_CELLS, plan.capacity_cells);
 }

@@ -24,13 +24,17 @@
 #include "host/scene/specialise.h"
 #include "host/scene/tree_tables.h"
 #include "host/world/body_slots.h"
+#include "host/world/call_log.h"
 #include "host/world/commands.h"
 #include "host/world/placed_backends.h"
 #include "host/world/queries.h"
 #include "host/world/shape_slots.h"
+#include "host/world/state_ring.h"
 #include "host/world/step_buffers.h"
 
 namespace tandem {
+
+struct SnapshotContents;
 
 /* A body's index shares a word with the stage in which the body failed (COUNT_NONFINITE). */
 constexpr uint32_t body_numbers = 1u << 28;
@@ -42,11 +46,26 @@ uint32_t first_capacity(const Scene &scene, const Settings &settings);
 void check_solver(const Settings &settings, const Body &body, size_t index, const std::string &where);
 
 struct World::Implementation {
+  /* What a world begins with: a scene, or what a snapshot holds. */
+  struct Beginning {
+    Scene scene;
+    Settings settings;
+    Specialisation special; /* features: those that the scene needs */
+    BodySlots slots;
+    uint32_t room;  /* bodies that the buffers hold */
+    uint32_t pairs; /* the first capacity */
+    bool forces;
+  };
+  static Beginning beginning_of(const Scene &given, const Settings &chosen, const Placement &placement);
+
   Implementation(const Scene &given, const Settings &chosen, const Placement &placement);
+  /* shared: those of the world that this one is to replace, with their placement; null: none. */
+  Implementation(Beginning beginning, const Placement &placement, const PlacedBackends *shared = nullptr);
   ~Implementation(); /* waits, because running kernels still read buffers */
 
   /* --- making a world: implementation.cpp --------------------------------------------------------------------- */
   Sizes sizes() const;
+  Features features_run() const { return settings.specialise ? scene_features : all_features(); }
   void record_kernels();
   void place(const Placement &placement);
   void place_again(); /* if other kernels are needed than before */
@@ -79,6 +98,33 @@ struct World::Implementation {
   void enlarge(uint32_t pairs);
   void quarantine_from(uint32_t code);
   void quarantine(uint32_t index, uint32_t stage);
+
+  /* --- a world as bytes: snapshot.cpp ---------------------------------------------------------------------------- */
+  std::vector<std::byte> save();
+  void put_history(ByteWriter &writer) const;
+  void put_buffers(ByteWriter &writer);
+  bool is_saved(Buffer buffer) const;
+  /* old: the world that it replaces, whose backends it takes over; null: none. */
+  static std::unique_ptr<Implementation> restored(std::span<const std::byte> snapshot,
+                                                  std::vector<Extension> extensions, const Placement &placement,
+                                                  const Implementation *old);
+  void take_buffers(const SnapshotContents &contents);
+
+  /* --- recordings: call_log.cpp ---------------------------------------------------------------------------------- */
+  void start_recording(const std::string &path, const RecordingOptions &options);
+  void log_step();
+  uint64_t state_hash();
+
+  /* --- the last states: state_ring.cpp --------------------------------------------------------------------------- */
+  void keep_states(uint32_t states, bool after_steps);
+  void keep_state();
+  void keep_state_of_step();
+  void go_back(uint32_t states);
+  void check_back(uint32_t states) const;
+  void stage_roster(StagedUploads &uploads, const KeptState &state, std::span<const RosterChange> changes) const;
+  void take_roster(const KeptState &state, BodySlots &slots_then) noexcept;
+  void drop_forces();
+  Storage &storage_of(Buffer buffer);
 
   /* --- calls between two steps: calls.cpp ------------------------------------------------------------------------ */
   void settle();
@@ -122,6 +168,7 @@ struct World::Implementation {
   bool brings_tables(const Arrival &arrival);
   bool brings_features(std::span<const uint32_t> slots);
   void note_kinds(std::span<const uint32_t> slots);
+  std::vector<RosterChange> changes_of(const Arrival &arrival);
   void place_among_others(const Arrival &arrival);
   void lay_out_anew(const Arrival &arrival);
   void lay_out_anew(std::span<const uint32_t> restated = {}); /* bodies whose state the scene has */
@@ -169,6 +216,9 @@ struct World::Implementation {
   std::vector<Quarantine> quarantined;
   std::optional<BatchFault> fault;
   Statistics statistics;
+  uint32_t cached_pairs = 0; /* in the contact cache, as cached_start says */
+  StateRing ring;
+  std::unique_ptr<CallLog> log; /* of the recording, if one is made */
 };
 
 } // namespace tandem

@@ -77,9 +77,15 @@ void PlacedBackends::take_features(Features features, const std::vector<Kernel> 
     assign(wanted_, kernels);
   } catch (...) {
     features_ = before;
-    for (const auto &[text, backend] : backends_) backend->prepare(before, {});
+    take_back();
     throw;
   }
+}
+
+/* The kernels have been built before, so that this cannot fail. */
+void PlacedBackends::take_back() const
+{
+  for (const auto &[text, backend] : backends_) backend->prepare(features_, {});
 }
 
 Backend &PlacedBackends::of(Kernel kernel)

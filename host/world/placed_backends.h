@@ -17,6 +17,13 @@ namespace tandem {
 class PlacedBackends {
 public:
   PlacedBackends(const Placement &placement, Features features) : wanted_(placement), features_(features) {}
+  /* The same backends and placement for a world of other features that is to replace the one of `shared`. Where it
+   * does not come to that, shared.take_back() makes them serve the old one again. */
+  PlacedBackends(const PlacedBackends &shared, Features features)
+      : wanted_(shared.wanted_), features_(features), backends_(shared.backends_), profiling_(shared.profiling_)
+  {}
+  void take_back() const;
+  const Placement &wanted() const { return wanted_; }
   /* Moves these kernels, and all others from their next launch on. If it throws (InputError or a device's
    * std::runtime_error), nothing has changed. */
   void place(const Placement &placement, const std::vector<Kernel> &kernels);
@@ -26,7 +33,7 @@ public:
   /* Kernels that place() did not name are built when they are first used, and then kept. */
   Backend &of(Kernel kernel);
 
-  const std::map<std::string, std::unique_ptr<Backend>> &all() const { return backends_; }
+  const std::map<std::string, std::shared_ptr<Backend>> &all() const { return backends_; }
   /* Ignores failures, because they were reported when they occurred and a destructor cannot report them. */
   void finish_at_last() noexcept;
   void set_profiling(bool on);
@@ -40,7 +47,7 @@ private:
 
   Placement wanted_;
   Features features_;
-  std::map<std::string, std::unique_ptr<Backend>> backends_; /* by the text that names them */
+  std::map<std::string, std::shared_ptr<Backend>> backends_; /* by the text that names them */
   std::vector<Backend *> placed_;                            /* by the kernel's number */
   bool profiling_ = false;                                   /* also of backends made later */
 };

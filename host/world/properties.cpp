@@ -122,6 +122,7 @@ void World::Implementation::set_properties(std::span<const BodyId> ids, std::spa
     throw;
   }
   placed.keep();
+  ring.forget("properties of bodies were changed");
   for (const uint32_t slot : changed.slots)
     if (slots.status()[slot] != BodyStatus::quarantined)
       commands.add(index_of_body[slot], COMMAND_SET_MASS, mass_command_of(scene.bodies[slot]));

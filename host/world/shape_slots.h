@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include <tandem/bodies.h>
@@ -24,6 +25,21 @@ public:
     uint32_t child;
   };
 
+  struct Slot {
+    uint32_t generation = 1;
+    bool exists = false;
+    BodyId body;
+  };
+  using Handles = std::map<uint32_t, std::vector<ShapeId>>; /* by the slot of the body */
+
+  ShapeSlots() = default;
+  ShapeSlots(std::vector<Slot> slots, std::vector<uint32_t> queue, Handles handles)
+      : slots_(std::move(slots)), queue_(std::move(queue)), handles_(std::move(handles))
+  {}
+  const std::vector<Slot> &slots() const { return slots_; }
+  const std::vector<uint32_t> &queue() const { return queue_; }
+  const Handles &handles() const { return handles_; }
+
   /* The handles of a body with so many shapes; makes those that it lacks, at the end. */
   const std::vector<ShapeId> &of(const BodyId &body, size_t shapes);
   /* Throws InputError that says what a stale or unknown handle is. */
@@ -32,17 +48,12 @@ public:
   void forget(uint32_t body);     /* all handles of a body that is destroyed, by its slot */
 
 private:
-  struct Slot {
-    uint32_t generation = 1;
-    bool exists = false;
-    BodyId body;
-  };
   ShapeId take(const BodyId &body);
   void free(const ShapeId &id);
 
   std::vector<Slot> slots_;
-  std::vector<uint32_t> queue_;                      /* free slots */
-  std::map<uint32_t, std::vector<ShapeId>> handles_; /* by the slot of the body */
+  std::vector<uint32_t> queue_; /* free slots */
+  Handles handles_;
 };
 
 } // namespace tandem

@@ -173,6 +173,7 @@ void World::Implementation::give_parts(const char *call, const std::map<uint32_t
     throw;
   }
   placed.keep();
+  ring.forget("shapes were added to bodies or removed");
   before.keep();
   made_shapes.swap(made);
 }

@@ -41,6 +41,7 @@ void World::Implementation::step()
     tell_why_step_failed();
   }
   whole = true;
+  keep_state_of_step();
 }
 
 void World::Implementation::run_until_whole()
@@ -137,6 +138,7 @@ void World::Implementation::accept()
   order_of_events.clear();
   moved_before.reset();
   ++statistics.steps;
+  cached_pairs = plan.known[COUNT_PAIRS];
   plan.rounds = std::clamp<uint32_t>(plan.known[COUNT_ROUNDS] + 3, 4, most_rounds);
   plan.colors = std::min(plan.known[COUNT_COLORS] + 1, COLOR_LIMIT);
   if (plan.known[COUNT_COLORS] > COLOR_LIMIT) plan.colors = COLOR_LIMIT + 1;
@@ -217,11 +219,13 @@ void World::Implementation::quarantine(uint32_t index, uint32_t stage)
 {
   static const char *const stages[] = {"start", "solve", "integrate"};
   const uint32_t body = special.order[index];
+  ring.prepare_changes(1);
   quarantined.push_back({body, scene.bodies[body].name, stages[stage], statistics.steps});
   ++statistics.nonfinite;
   taken_out.emplace_back(index, tandem::read_body(memory, index)); /* first, so that it can be restored */
   quarantine_body(memory, index);
   slots.quarantine(body);
+  ring.note({body, std::nullopt, std::nullopt});
 }
 
 } // namespace tandem

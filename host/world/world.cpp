@@ -46,6 +46,13 @@ World::World(const Scene &scene, const Settings &settings, const Placement &plac
   }
 }
 
+World::World(std::span<const std::byte> snapshot, const Placement &placement, std::vector<Extension> extensions)
+{
+  implementation_ = naming_what_failed(
+      [&] { return fmt::format("out of memory: a world of a snapshot of {} bytes", snapshot.size()); },
+      [&] { return Implementation::restored(snapshot, std::move(extensions), placement, nullptr); });
+}
+
 namespace {
 
 /* Runs a query of a world; if memory runs out, the message says what was requested and for how many bodies. */
@@ -61,9 +68,23 @@ template <class Work> auto answer(const char *what, size_t bodies, Work work)
 
 } // namespace
 
+namespace {
+
+/* Writes a call that has succeeded, if a recording is made. */
+template <class... T> void note(const std::unique_ptr<CallLog> &log, RecordedCall call, const T &...fields)
+{
+  if (log) log->put(call, fields...);
+}
+
+} // namespace
+
 World::~World() = default;
 
-void World::step() { implementation_->step(); }
+void World::step()
+{
+  implementation_->step();
+  implementation_->log_step();
+}
 void World::place(const Placement &placement)
 {
   answer("the placement", implementation_->slots.existing(), [&] { implementation_->place(placement); });
@@ -78,6 +99,59 @@ Memory &World::memory() { return implementation_->memory; }
 Backend &World::backend_of(Kernel kernel) { return implementation_->backends.of(kernel); }
 uint32_t World::scene_body(uint32_t buffer_index) const { return implementation_->special.order.at(buffer_index); }
 void World::set_observer(Observer observer) { implementation_->launcher.set_observer(std::move(observer)); }
+
+std::vector<std::byte> World::save()
+{
+  return answer("a snapshot", implementation_->slots.existing(), [&] { return implementation_->save(); });
+}
+
+void World::restore(std::span<const std::byte> snapshot)
+{
+  try {
+    auto restored = naming_what_failed(
+        [&] { return fmt::format("out of memory: a world of a snapshot of {} bytes", snapshot.size()); },
+        [&] {
+          return Implementation::restored(snapshot, implementation_->settings.extensions, {}, implementation_.get());
+        });
+    restored->log = std::move(implementation_->log);
+    implementation_ = std::move(restored);
+  } catch (...) {
+    implementation_->backends.take_back();
+    throw;
+  }
+  note(implementation_->log, RecordedCall::restore, snapshot);
+}
+
+void World::start_recording(const std::string &path, const RecordingOptions &options)
+{
+  answer("a recording", implementation_->slots.existing(), [&] { implementation_->start_recording(path, options); });
+}
+
+void World::stop_recording()
+{
+  if (const std::unique_ptr<CallLog> log = std::move(implementation_->log)) log->finish();
+}
+
+void World::keep_states(uint32_t states, bool after_steps)
+{
+  answer("states to go back to", implementation_->slots.existing(),
+         [&] { implementation_->keep_states(states, after_steps); });
+  note(implementation_->log, RecordedCall::keep_states, states, after_steps);
+}
+
+void World::keep_state()
+{
+  answer("a state to go back to", implementation_->slots.existing(), [&] { implementation_->keep_state(); });
+  note(implementation_->log, RecordedCall::keep_state);
+}
+
+uint32_t World::states_kept() const { return static_cast<uint32_t>(implementation_->ring.kept()); }
+
+void World::go_back(uint32_t states)
+{
+  answer("a state to go back to", implementation_->slots.existing(), [&] { implementation_->go_back(states); });
+  note(implementation_->log, RecordedCall::go_back, states);
+}
 
 std::vector<BodyState> World::bodies()
 {
@@ -112,6 +186,7 @@ void World::set_body_unchecked(uint32_t body, const BodyState &state)
     implementation_->settle(); /* what was called before comes before */
     upload_body(implementation_->memory, implementation_->index_of_body.at(body), state);
   });
+  note(implementation_->log, RecordedCall::set_body, body, state);
 }
 
 BodyId World::id_of(uint32_t body) const
@@ -127,27 +202,46 @@ bool World::exists(const BodyId &id) const
   return implementation_->slots.exists(id.index) && implementation_->slots.id_of(id.index) == id;
 }
 
+std::vector<BodyId> World::body_ids() const
+{
+  const BodySlots &slots = implementation_->slots;
+  std::vector<BodyId> ids;
+  ids.reserve(slots.existing());
+  for (uint32_t slot = 0; slot < slots.count(); ++slot)
+    if (slots.exists(slot)) ids.push_back(slots.id_of(slot));
+  return ids;
+}
+
 uint32_t World::body_count() const { return implementation_->slots.existing(); }
 
 std::vector<BodyId> World::create_bodies(std::span<const Body> bodies)
 {
-  return answer("new bodies", implementation_->slots.existing(), [&] { return implementation_->create(bodies); });
+  std::vector<BodyId> ids =
+      answer("new bodies", implementation_->slots.existing(), [&] { return implementation_->create(bodies); });
+  note(implementation_->log, RecordedCall::create_bodies, bodies, ids);
+  return ids;
 }
 
 void World::destroy_bodies(std::span<const BodyId> ids)
 {
   answer("the destruction of bodies", implementation_->slots.existing(), [&] { implementation_->destroy(ids); });
+  note(implementation_->log, RecordedCall::destroy_bodies, ids);
 }
 
 uint32_t World::add_shape(const Shape &shape)
 {
-  return answer("a shape", implementation_->slots.existing(), [&] { return implementation_->add_shape(shape); });
+  const uint32_t index =
+      answer("a shape", implementation_->slots.existing(), [&] { return implementation_->add_shape(shape); });
+  note(implementation_->log, RecordedCall::add_shape, shape, index);
+  return index;
 }
 
 uint32_t World::add_material(const Material &material)
 {
-  return answer("a material", implementation_->slots.existing(),
-                [&] { return implementation_->add_material(material); });
+  const uint32_t index =
+      answer("a material", implementation_->slots.existing(), [&] { return implementation_->add_material(material); });
+  note(implementation_->log, RecordedCall::add_material, material, index);
+  return index;
 }
 
 void World::set_properties(std::span<const BodyId> ids, std::span<const BodyProperties> properties)
@@ -155,6 +249,7 @@ void World::set_properties(std::span<const BodyId> ids, std::span<const BodyProp
   const minicl::ExactFloatingPoint environment;
   answer("properties of bodies", implementation_->slots.existing(),
          [&] { implementation_->set_properties(ids, properties); });
+  note(implementation_->log, RecordedCall::set_properties, ids, properties);
 }
 
 Body World::body_description(const BodyId &id) const
@@ -165,19 +260,25 @@ Body World::body_description(const BodyId &id) const
 std::vector<ShapeId> World::add_shapes(std::span<const BodyId> ids, std::span<const Child> shapes)
 {
   const minicl::ExactFloatingPoint environment;
-  return answer("shapes of bodies", implementation_->slots.existing(),
-                [&] { return implementation_->add_shapes(ids, shapes); });
+  std::vector<ShapeId> added = answer("shapes of bodies", implementation_->slots.existing(),
+                                      [&] { return implementation_->add_shapes(ids, shapes); });
+  note(implementation_->log, RecordedCall::add_shapes, ids, shapes, added);
+  return added;
 }
 
 void World::remove_shapes(std::span<const ShapeId> ids)
 {
   const minicl::ExactFloatingPoint environment;
   answer("shapes of bodies", implementation_->slots.existing(), [&] { implementation_->remove_shapes(ids); });
+  note(implementation_->log, RecordedCall::remove_shapes, ids);
 }
 
 std::vector<ShapeId> World::shapes_of(const BodyId &id)
 {
-  return answer("shapes of bodies", implementation_->slots.existing(), [&] { return implementation_->shapes_of(id); });
+  std::vector<ShapeId> shapes =
+      answer("shapes of bodies", implementation_->slots.existing(), [&] { return implementation_->shapes_of(id); });
+  note(implementation_->log, RecordedCall::shapes_of, id); /* it makes handles */
+  return shapes;
 }
 
 BodyId World::body_of(const ShapeId &id) const { return implementation_->shapes.place_of("body_of", id).body; }
@@ -191,41 +292,53 @@ void World::set_states(std::span<const BodyId> ids, std::span<const BodyState> s
 {
   const minicl::ExactFloatingPoint environment;
   answer("calls to bodies", implementation_->slots.existing(), [&] { implementation_->set_states(ids, states); });
+  note(implementation_->log, RecordedCall::set_states, ids, states);
 }
 
 void World::set_velocities(std::span<const BodyId> ids, std::span<const Velocity> velocities)
 {
   answer("calls to bodies", implementation_->slots.existing(),
          [&] { implementation_->set_velocities(ids, velocities); });
+  note(implementation_->log, RecordedCall::set_velocities, ids, velocities);
 }
 
 void World::move_to(std::span<const BodyId> ids, std::span<const Pose> poses)
 {
   const minicl::ExactFloatingPoint environment;
   answer("calls to bodies", implementation_->slots.existing(), [&] { implementation_->move_to(ids, poses); });
+  note(implementation_->log, RecordedCall::move_to, ids, poses);
 }
 
 void World::add_impulses(std::span<const BodyId> ids, std::span<const Impulse> impulses)
 {
   const minicl::ExactFloatingPoint environment;
   answer("calls to bodies", implementation_->slots.existing(), [&] { implementation_->add_impulses(ids, impulses); });
+  note(implementation_->log, RecordedCall::add_impulses, ids, impulses);
 }
 
 void World::add_forces(std::span<const BodyId> ids, std::span<const Force> forces)
 {
   const minicl::ExactFloatingPoint environment;
   answer("calls to bodies", implementation_->slots.existing(), [&] { implementation_->add_forces(ids, forces); });
+  note(implementation_->log, RecordedCall::add_forces, ids, forces);
 }
 
 void World::run(Kernel kernel, std::span<const uint32_t> values, std::span<const Buffer> slots)
 {
   const minicl::ExactFloatingPoint environment;
   answer("a kernel", implementation_->slots.existing(), [&] { implementation_->run(kernel, values, slots); });
+  if (!implementation_->log) return;
+  std::vector<std::string> names;
+  for (const Buffer slot : slots) names.emplace_back(name_of(slot));
+  implementation_->log->put(RecordedCall::run, std::string(name_of(kernel)), values, names);
 }
 
 void World::write_bytes(Buffer buffer, const void *from, size_t bytes, size_t offset)
 {
   answer("a buffer", implementation_->slots.existing(), [&] { implementation_->write(buffer, from, bytes, offset); });
+  if (implementation_->log)
+    implementation_->log->put(RecordedCall::write, std::string(name_of(buffer)), uint64_t{offset},
+                              std::span(static_cast<const std::byte *>(from), bytes));
 }
 
 size_t World::buffer_bytes(Buffer buffer) const
@@ -343,12 +456,14 @@ uint64_t World::body_hash()
 
 uint64_t World::state_hash()
 {
-  const Implementation &world = *implementation_;
-  uint64_t hash = answer("the hash", world.slots.existing(), [&] {
-    implementation_->settle();
-    return hash_carried(implementation_->memory, world.buffers.carried(), world.bodies(), world.scene_features);
-  });
-  for (const Quarantine &taken : world.quarantined) hash = hash_bytes(&taken.body, sizeof taken.body, hash);
+  return answer("the hash", implementation_->slots.existing(), [&] { return implementation_->state_hash(); });
+}
+
+uint64_t World::Implementation::state_hash()
+{
+  settle();
+  uint64_t hash = hash_carried(memory, buffers.carried(), bodies(), scene_features);
+  for (const Quarantine &taken : quarantined) hash = hash_bytes(&taken.body, sizeof taken.body, hash);
   return hash;
 }
 

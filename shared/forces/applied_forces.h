@@ -3,12 +3,13 @@
  *   body_force  --begin_forces-->  solver_force  --modules add-->  apply_forces  -->  solver_velocity
  *
  * body_force holds what the calls between two steps have added up (shared/commands/apply_commands.h). It acts in every
- * substep and is cleared when the step is committed, so a step that runs again uses the same forces. Modules that launch
- * at StepPoint::forces add to solver_force in each substep. This is the box "apply forces" before "integrate" in the
- * figures of the 2009 and 2013 talks. A scene without forces has none of these kernels and buffers.
+ * substep and is cleared when the step is committed, so a step that runs again uses the same forces. Modules that
+ * launch at StepPoint::forces add to solver_force in each substep. This is the box "apply forces" before "integrate" in
+ * the figures of the 2009 and 2013 talks. A scene without forces has none of these kernels and buffers.
  *
  * A constant force gives the parabola of its closed form, as gravity does (integrate/positions.h): the symplectic Euler
- * step moves a body that no constraint touches half a substep's acceleration too far, and follow_forces takes that back.
+ * step moves a body that no constraint touches half a substep's acceleration too far, and follow_forces takes that
+ * back.
  */
 #ifndef TANDEM_SHARED_FORCES_APPLIED_FORCES_H
 #define TANDEM_SHARED_FORCES_APPLIED_FORCES_H

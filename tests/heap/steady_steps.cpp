@@ -39,10 +39,12 @@ Counts allocations(World &world)
   return counts;
 }
 
-void check_allocates_nothing(const Scene &scene, const Settings &settings, const std::string &backend)
+void check_allocates_nothing(const Scene &scene, const Settings &settings, const std::string &backend,
+                             uint32_t states = 0)
 {
-  CAPTURE(backend);
+  CAPTURE(backend, states);
   World world(scene, settings, {backend, {}});
+  world.keep_states(states);
   for (int i = 0; i < 40; ++i) world.step();
   const Statistics before = world.statistics();
   const Counts counts = allocations(world);
@@ -85,6 +87,13 @@ TEST_CASE("heap: a step that finds room for all it needs allocates nothing, on a
       CAPTURE(c.what, c.scene);
       check_allocates_nothing(load_scene(c.scene), c.settings, backend);
     }
+}
+
+TEST_CASE("heap: a step whose state is kept allocates nothing, on any backend")
+{
+  for (const std::string &backend : all_backends())
+    check_allocates_nothing(load_scene("box-grid:nx=3,ny=3,nz=3"),
+                            short_step(with(Solver::soft_step, Broadphase::grid, true)), backend, 4);
 }
 
 TEST_CASE("heap: a step with a module of a user's allocates nothing, on any backend")

@@ -264,6 +264,22 @@ TEST_CASE("heap: what reads a world or asks it something changes nothing where i
     }
 }
 
+TEST_CASE("heap: saving, restoring and going back change nothing where they fail", "[sanitizer]")
+{
+  const std::vector<std::pair<const char *, Call>> calls = {
+      {"save", [](World &world) { world.save(); }},
+      {"restore", [](World &world) { world.restore(world.save()); }},
+      {"go_back", [](World &world) {
+         world.keep_states(2);
+         world.go_back(0);
+       }}};
+  const std::vector<Case> cases = heap_cases();
+  for (const auto &[name, call] : calls) {
+    CAPTURE(name, cases.front().what);
+    fail_everywhere_in(call, {load_scene(cases.front().scene), cases.front().settings, two_threads, 2});
+  }
+}
+
 /* The islands of `direct` are solved by tasks of TBB, which allocate. */
 TEST_CASE("heap: what fails in a task of another thread reaches who asked for the step", "[sanitizer]")
 {

@@ -1,7 +1,14 @@
 /* A module beside the pipeline's (tests/module/probe_kernels.def): its kernels run at every point, in every form and on
  * every backend, its buffers live as long as they say, and what does not fit is refused by name. */
 #include <algorithm>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <numeric>
+
+#include <fmt/format.h>
+#include <unistd.h>
 
 #include <tandem/compare.h>
 #include <tandem/load_scene.h>
@@ -210,6 +217,54 @@ TEST_CASE("module: what no kernel writes in a step stays as it was")
     seen.push_back(world.read<uint32_t>(probe::buffer::probe_age())[1]);
   }
   CHECK(seen == std::vector<uint32_t>{1, 2, 2, 3, 4});
+}
+
+TEST_CASE("module: a snapshot holds what its buffers hold, and asks for the module")
+{
+  World world(balls(5), with(pushing(1)), {"tbb", {}});
+  world.write<uint32_t>(probe::buffer::probe_ghost(), std::vector<uint32_t>{1, 0, 1, 0, 1, 0, 1});
+  world.write<uint32_t>(probe::buffer::probe_label(), std::vector<uint32_t>{7, 8, 9}, 1000);
+  for (int i = 0; i < 3; ++i) world.step();
+  const std::vector<std::byte> snapshot = world.save();
+  Extension other = pushing(1);
+  other.prepare = [](World &) { FAIL("the buffers of a snapshot are prepared already"); };
+  World restored(snapshot, {"serial", {}}, {other});
+  CHECK(restored.state_hash() == world.state_hash());
+  CHECK(restored.read<float>(probe::buffer::probe_force()) == gust);
+  CHECK(restored.read<uint32_t>(probe::buffer::probe_ghost()) == world.read<uint32_t>(probe::buffer::probe_ghost()));
+  CHECK(restored.read<uint32_t>(probe::buffer::probe_label())[1002] == 9);
+  for (World *one : {&world, &restored})
+    for (int i = 0; i < 3; ++i) one->step();
+  CHECK(restored.state_hash() == world.state_hash());
+  CHECK(restored.read<uint32_t>(probe::buffer::probe_age()) == std::vector<uint32_t>(5, 6));
+  CHECK(message_of([&] { World without(snapshot, {"serial", {}}); }) ==
+        "snapshot: its world had the modules [probe], and [] are given; give extensions of the same modules in the "
+        "same order");
+  world.restore(snapshot);
+  world.step();
+  CHECK(world.read<uint32_t>(probe::buffer::probe_age()) == std::vector<uint32_t>(5, 4));
+}
+
+TEST_CASE("module: what is written to its buffers and run between steps is in a recording")
+{
+  const std::string path = std::filesystem::temp_directory_path() / fmt::format("tandem-module-{}.tandem", getpid());
+  World world(balls(5), with(pushing(1)), {"tbb", {}});
+  world.start_recording(path);
+  for (int i = 0; i < 4; ++i) {
+    world.write<float>(probe::buffer::probe_force(), std::vector<float>{0.1f * static_cast<float>(i), 0, 0, 0});
+    if (i == 2) world.run(probe::kernel::probe_turn_back());
+    world.step();
+  }
+  world.stop_recording();
+  std::ifstream file(path, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  std::filesystem::remove(path);
+  std::vector<std::byte> bytes(text.size());
+  std::memcpy(bytes.data(), text.data(), text.size());
+  const WorldRecording recording(std::move(bytes), "F.tandem");
+  World again(recording.snapshot(), {"serial", {}}, {pushing(1)});
+  CHECK_FALSE(replay(recording, again, {}));
+  CHECK(again.state_hash() == world.state_hash());
 }
 
 TEST_CASE("module: a buffer of any size keeps what it had where there is no room for more, and grows else")

@@ -7,8 +7,8 @@ using namespace tandem::parity;
 
 namespace {
 
-const std::vector<std::string> cpu = {"serial", "serial:order=backward", "serial:order=shuffled",
-                                      "tbb:threads=7,lanes=8", "tbb"};
+const std::vector<std::string> orders_and_widths = {"serial", "serial:order=backward", "serial:order=shuffled",
+                                                    "tbb:threads=7,lanes=8", "tbb"};
 
 Settings all_features(Settings settings)
 {
@@ -20,21 +20,21 @@ Settings all_features(Settings settings)
 
 TEST_CASE("parity on CPU: jacobi", "[sanitizer]")
 {
-  require_parity("box-grid:nx=4,ny=4,nz=4", cpu, 12, settings_for(Solver::jacobi));
-  require_parity("mixed:n=60", cpu, 25, settings_for(Solver::jacobi));
-  require_parity("spheres:n=60,height=0,restitution=0.5", cpu, 25, settings_for(Solver::jacobi));
+  require_parity("box-grid:nx=4,ny=4,nz=4", orders_and_widths, 12, settings_for(Solver::jacobi));
+  require_parity("mixed:n=60", orders_and_widths, 25, settings_for(Solver::jacobi));
+  require_parity("spheres:n=60,height=0,restitution=0.5", orders_and_widths, 25, settings_for(Solver::jacobi));
 }
 
 TEST_CASE("parity on CPU: the overflow constraints")
 {
-  require_parity(physics_tests::laden_slab(13, 0.5f), cpu, 12, {});
-  require_parity(physics_tests::laden_slab(13, 0.5f), cpu, 6, settings_for(Solver::jacobi));
+  require_parity(physics_tests::laden_slab(13, 0.5f), orders_and_widths, 12, {});
+  require_parity(physics_tests::laden_slab(13, 0.5f), orders_and_widths, 6, settings_for(Solver::jacobi));
 }
 
 /* Long enough for a second level of the tree. */
 TEST_CASE("parity on CPU: a list of more than a thousand")
 {
-  require_parity(physics_tests::laden_slab(35), {"serial", cpu[2], cpu[3]}, 3, {});
+  require_parity(physics_tests::laden_slab(35), {"serial", orders_and_widths[2], orders_and_widths[3]}, 3, {});
 }
 
 TEST_CASE("parity on OpenCL: jacobi and the overflow constraints")

@@ -52,7 +52,7 @@ void check_colors(const Coloring &coloring)
 }
 
 /* A slab with 100 spheres on it: more contacts than there are colours. */
-Scene laden_slab()
+Scene slab_under_small_boxes()
 {
   Scene scene = empty_scene();
   add_ground(scene);
@@ -92,7 +92,7 @@ TEST_CASE("a body that touches more than 63 others goes to the overflow constrai
   settings.batching = GENERATE(from_range(choices<Batching>()));
   settings.check = true;
   CAPTURE(settings.batching);
-  World world(laden_slab(), settings);
+  World world(slab_under_small_boxes(), settings);
   const std::vector<BodyState> start = world.bodies();
   run(world, 120);
   const Coloring coloring = coloring_of(world);

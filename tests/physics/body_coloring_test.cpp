@@ -66,7 +66,7 @@ std::vector<uint32_t> greedy(const Coloring &coloring)
 }
 
 /* A body of many neighbours. */
-Scene laden_slab(int side)
+Scene slab_under_boxes(int side)
 {
   Scene scene = empty_scene();
   add_ground(scene);
@@ -81,7 +81,8 @@ Scene laden_slab(int side)
 
 TEST_CASE("bodies of one colour share no constraint, and colours are those of a greedy pass", "[physics]")
 {
-  const std::vector<Scene> scenes{load_scene("box-grid:nx=5,ny=5,nz=5"), load_scene("pyramid:rows=12"), laden_slab(12)};
+  const std::vector<Scene> scenes{load_scene("box-grid:nx=5,ny=5,nz=5"), load_scene("pyramid:rows=12"),
+                                  slab_under_boxes(12)};
   for (const Scene &scene : scenes) {
     World world(scene, settings_for(Solver::avbd));
     for (int i = 0; i < 3; ++i) {

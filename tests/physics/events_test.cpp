@@ -7,6 +7,7 @@
 #include "tests/catch.h"
 #include "tests/physics/bodies.h"
 #include "tests/physics/event_oracle.h"
+#include "tests/physics/event_settings.h"
 
 using namespace tandem;
 using namespace tandem::physics_tests;
@@ -14,13 +15,6 @@ using namespace tandem::physics_tests;
 namespace {
 
 using Kind = ContactEvent::Kind;
-
-Settings with_events(Solver solver = Solver::soft_step)
-{
-  Settings settings = settings_for(solver);
-  settings.events = true;
-  return settings;
-}
 
 /* One letter a step for the pair (a, b): b, p, e, or . for no event. */
 class History {

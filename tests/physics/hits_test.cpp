@@ -9,7 +9,7 @@ using namespace tandem::physics_tests;
 
 namespace {
 
-constexpr double step = 1.0 / 60, half = 0.25, apart = 40; /* s, m, m between the lanes */
+constexpr double step = 1.0 / 60, half_size = 0.25, between_lanes = 40; /* s, m, m between the lanes */
 
 /* Cubes start where the balls around them and around a fixed cube are apart; their middles come into it within one
  * step. */
@@ -18,15 +18,16 @@ Scene hits(const Shape &flying, const Shape &standing, int lanes)
   Random random(11);
   Scene scene = empty_scene({0, 0, 0});
   for (int lane = 0; lane < lanes; ++lane) {
-    const double z = apart * lane, speed = random.uniform(100, 300);
+    const double z = between_lanes * lane, speed = random.uniform(100, 300);
     const Quat turn = any_turn(random);
     Body &wall = add_body(scene, BodyType::fixed, standing, {0, 0, z});
     wall.orientation = turn;
-    Vector inside(random.uniform(-half, half), random.uniform(-half, half), random.uniform(-half, half));
+    Vector inside(random.uniform(-half_size, half_size), random.uniform(-half_size, half_size),
+                  random.uniform(-half_size, half_size));
     inside = axes_of(turn) * inside;
     const Vector velocity = speed * direction(random);
     double time = random.uniform(0, step);
-    const double touching_balls = 2 * std::sqrt(3.0) * half;
+    const double touching_balls = 2 * std::sqrt(3.0) * half_size;
     while ((inside - time * velocity).norm() <= touching_balls) time = random.uniform(0, step);
     const Vector start = inside - time * velocity;
     Body &body = add_dynamic_body(scene, flying, {start.x(), start.y(), start.z() + z}, any_turn(random));
@@ -65,7 +66,7 @@ Scene struck_from_above(double speed, double spin)
 }
 
 /* How deep the ball comes into the board. */
-double deepest(const Scene &scene, const Settings &settings)
+double deepest_in_board(const Scene &scene, const Settings &settings)
 {
   World world(scene, settings, {"serial", {}});
   double lowest = 1;
@@ -84,7 +85,8 @@ Scene thrown_at_sheets(const Shape &sheet, int lanes)
   Scene scene = empty_scene({0, 0, 0});
   scene.materials[0].restitution = 0;
   for (int lane = 0; lane < lanes; ++lane) {
-    const double z = apart * lane, size = 0.15 * logarithmic(random, 0.15, 2), speed = logarithmic(random, 1, 300);
+    const double z = between_lanes * lane, size = 0.15 * logarithmic(random, 0.15, 2),
+                 speed = logarithmic(random, 1, 300);
     add_body(scene, BodyType::fixed, sheet, {0, -0.005, z});
     const float thin = float(size * (lane % 3 == 1 ? 0.05 : 0.5)), wide = float(lane % 3 == 2 ? 0.05 * size : size);
     const Shape shape = box_shape(float(size), thin, wide);
@@ -126,7 +128,7 @@ TEST_CASE("what hits hardly ever passes: one in a hundred of fast bodies that fr
 
 TEST_CASE("what hits is noticed: fast boxes and hulls that start beside what they meet within the step", "[physics]")
 {
-  const float size = float(half);
+  const float size = float(half_size);
   const Shape box = box_shape(size, size, size), hull = hull_of_box(size, size, size),
               mesh = mesh_of_box(size, size, size);
   CHECK(unnoticed(hits(box, box, 2000), {}) == 0);
@@ -138,7 +140,7 @@ TEST_CASE("what hits is noticed: fast boxes and hulls that start beside what the
 TEST_CASE("what hits is noticed in every solver", "[physics]")
 {
   const Solver solver = GENERATE(from_range(choices<Solver>()));
-  const Shape box = box_shape(float(half), float(half), float(half));
+  const Shape box = box_shape(float(half_size), float(half_size), float(half_size));
   CAPTURE(solver);
   CHECK(unnoticed(hits(box, box, 500), settings_for(solver)) == 0);
 }
@@ -148,11 +150,11 @@ TEST_CASE("what hits is noticed: turning moves no plane that a body is pushed in
   const Solver solver = GENERATE(from_range(choices<Solver>()));
   for (double speed : {3.0, 20.0}) {
     /* What touches already follows, and so turns some of what it leaves: soft-step comes 0.12 deep at 3 m/s. */
-    const double without = deepest(struck_from_above(speed, 0), settings_for(solver)),
+    const double without = deepest_in_board(struck_from_above(speed, 0), settings_for(solver)),
                  most = speed < 10 ? std::max(1.5 * without, 0.13) : without;
     for (double spin : {20.0, 100.0, 300.0, -20.0, -100.0}) {
       CAPTURE(solver, speed, spin, without);
-      CHECK(deepest(struck_from_above(speed, spin), settings_for(solver)) < most + 1e-3);
+      CHECK(deepest_in_board(struck_from_above(speed, spin), settings_for(solver)) < most + 1e-3);
     }
   }
 }

@@ -10,16 +10,16 @@ using namespace tandem::physics_tests;
 
 namespace {
 
-struct Drift {
+struct MomentumDrift {
   double linear = 0, angular = 0;
 };
 
 /* In a closed system, relative to the sum of the lengths. */
-Drift momentum_drift(const Scene &scene, const Settings &settings, const std::string &backend, int steps)
+MomentumDrift momentum_drift(const Scene &scene, const Settings &settings, const std::string &backend, int steps)
 {
   World world(scene, settings, {backend, {}, false});
   const Momentum start = momentum_of(world);
-  Drift drift;
+  MomentumDrift drift;
   for (int step = 0; step < steps; ++step) {
     world.step();
     const Momentum now = momentum_of(world);
@@ -37,7 +37,8 @@ TEST_CASE("a body of very many constraints keeps momentum", "[physics]")
   const Solver solver = GENERATE(Solver::soft_step, Solver::jacobi, Solver::pgs, Solver::nncg, Solver::direct);
   const float restitution = GENERATE(0.0f, 0.5f);
   const int side = GENERATE(12, 36);
-  const Drift drift = momentum_drift(laden_slab(side, restitution), settings_for(solver), "tbb", side == 12 ? 30 : 6);
+  const MomentumDrift drift =
+      momentum_drift(laden_slab(side, restitution), settings_for(solver), "tbb", side == 12 ? 30 : 6);
   INFO(name_of(solver) << ", " << side * side << " boxes, restitution " << restitution << ": momentum " << drift.linear
                        << ", angular " << drift.angular);
   CHECK(drift.linear < 1e-5);

@@ -36,7 +36,7 @@ Form any_form(Random &random, int kind)
   default: return {mesh_of_box(s, s, s), cube, 0};
   }
 }
-constexpr int movers = 4, obstacles = 5;
+constexpr int mover_forms = 4, obstacle_forms = 5;
 
 double gap_between(const Form &a, const Form &b, const Vector &offset)
 {
@@ -87,8 +87,9 @@ constexpr int steps = 5;
 
 void add_throw(Scene &scene, Random &random, int lane, double step, const Throws &throws)
 {
-  const Form obstacle = any_form(random, throws.spin > 0 ? 0 : lane % (throws.is_free ? obstacles - 1 : obstacles)),
-             mover = any_form(random, lane / obstacles % movers);
+  const Form obstacle =
+                 any_form(random, throws.spin > 0 ? 0 : lane % (throws.is_free ? obstacle_forms - 1 : obstacle_forms)),
+             mover = any_form(random, lane / obstacle_forms % mover_forms);
   const double speed = logarithmic(random, 1, 300), before = random.uniform(0.02, 3) * step;
   const double clearance = logarithmic(random, throws.least_clearance, 0.02), angle = random.uniform(0, 2 * pi);
   const Vector aside(0, std::cos(angle), std::sin(angle)),

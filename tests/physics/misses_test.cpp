@@ -40,9 +40,9 @@ Shape roof(float half_length, float half_width, float height)
 }
 
 enum class Obstacle { face, edge, corner, thin, mesh_edge, mesh_box, compound, flat_rotor, upright_rotor };
-constexpr Obstacle obstacles[] = {Obstacle::face,     Obstacle::edge,       Obstacle::corner,
-                                  Obstacle::thin,     Obstacle::mesh_edge,  Obstacle::mesh_box,
-                                  Obstacle::compound, Obstacle::flat_rotor, Obstacle::upright_rotor};
+constexpr Obstacle all_obstacles[] = {Obstacle::face,     Obstacle::edge,       Obstacle::corner,
+                                      Obstacle::thin,     Obstacle::mesh_edge,  Obstacle::mesh_box,
+                                      Obstacle::compound, Obstacle::flat_rotor, Obstacle::upright_rotor};
 
 Child child(const Shape &shape, const Vec3 &position)
 {
@@ -99,7 +99,7 @@ Shape mover(Random &random, int kind)
   }
 }
 
-constexpr double apart = 4; /* m, between the lanes in which they fly */
+constexpr double lane_width = 4; /* m, between those that fly */
 
 Scene bouncy_scene(const Vec3 &gravity, float restitution)
 {
@@ -114,7 +114,7 @@ Scene flights(Obstacle obstacle, double clearance, double speed, uint64_t seed, 
   Random random(seed);
   Scene scene = bouncy_scene({0, 0, 0}, 0.3f);
   for (int lane = 0; lane < 24; ++lane) {
-    const double z = apart * lane;
+    const double z = lane_width * lane;
     add_obstacle(scene, obstacle, z, random.uniform(-0.7, 0.7));
     const Shape shape = mover(random, lane % 4);
     Body &body = add_dynamic_body(scene, shape, {0, 0, 0}, any_turn(random));
@@ -139,7 +139,7 @@ Scene glides(uint64_t seed, int lanes)
   Scene scene = bouncy_scene({0, 0, 0}, 0.3f);
   for (int lane = 0; lane < lanes; ++lane) {
     const float half = lane % 2 ? 0.5f : 2, small = 0.4f * half;
-    const double z = 3 * apart * lane, clearance = logarithmic(random, 0.0005, 0.003),
+    const double z = 3 * lane_width * lane, clearance = logarithmic(random, 0.0005, 0.003),
                  speed = logarithmic(random, 0.05, 0.5);
     const Shape obstacles[] = {box_shape(half, half, half), mesh_of_box(half, half, half),
                                hull_of_box(half, half, half)};
@@ -160,7 +160,8 @@ Scene past_turning_balls(uint64_t seed, double step, const Vec3 &gravity = {0, 0
   Random random(seed);
   Scene scene = bouncy_scene(gravity, 0.3f);
   for (int lane = 0; lane < 200; ++lane) {
-    const double z = 3 * apart * lane, standing = logarithmic(random, 0.05, 2), flying = logarithmic(random, 0.05, 2);
+    const double z = 3 * lane_width * lane, standing = logarithmic(random, 0.05, 2),
+                 flying = logarithmic(random, 0.05, 2);
     const double speed = logarithmic(random, 1, 300), clearance = logarithmic(random, 0.001, 0.02);
     Body &ball = add_body(scene, BodyType::kinematic, sphere_shape(float(standing)), {0, 0, z});
     const double turning = logarithmic(random, 0.3, 40) * (lane % 4 < 2 ? 1 : -1);
@@ -219,7 +220,7 @@ Scene falls(uint64_t seed, double step)
   const Shape movers[] = {sphere_shape(small), box_shape(small, small, small), capsule_shape(small, 2 * small),
                           hull_of_box(small, small, small)};
   for (int lane = 0; lane < 240; ++lane) {
-    const double z = apart * lane, speed = logarithmic(random, 1, 30);
+    const double z = lane_width * lane, speed = logarithmic(random, 1, 30);
     const double height = 0.17 + random.uniform(0, 1) * speed * step, beside = 0.55 + logarithmic(random, 0.001, 0.02);
     add_body(scene, BodyType::fixed, blocks[lane % 3], {0, 0, z});
     Body &body = add_body(scene, BodyType::dynamic, movers[lane / 3 % 4], {beside, 0.5 + height, z});
@@ -300,7 +301,7 @@ Scene past_at_every_moment(bool driven, double spin, double speed, double cleara
   constexpr double standing = 1, flying = 0.5;
   Scene scene = bouncy_scene({0, 0, 0}, 0);
   for (int lane = 0; lane < 28; ++lane) {
-    const double z = apart * lane, moment = 0.02 + 0.07 * (lane / 2), before = speed * step * (1 + moment);
+    const double z = lane_width * lane, moment = 0.02 + 0.07 * (lane / 2), before = speed * step * (1 + moment);
     Body &ball = driven ? add_body(scene, BodyType::kinematic, sphere_shape(standing), {0, 0, z})
                         : add_dynamic_body(scene, sphere_shape(standing), {0, 0, z}, {0, 0, 0, 1}, 1000);
     ball.angular_velocity = {0, 0, float(lane % 2 ? spin : -spin)};
@@ -337,7 +338,7 @@ TEST_CASE("what misses goes on: bodies that spin beside free ones, and past what
 
 TEST_CASE("what misses goes on: energy is kept beside faces, edges, corners, meshes, compounds and rotors", "[physics]")
 {
-  for (Obstacle obstacle : obstacles)
+  for (Obstacle obstacle : all_obstacles)
     for (double clearance : {0.001, 0.01, 0.02})
       for (double speed : {1.0, 5.0, 30.0, 100.0, 300.0}) {
         CAPTURE(int(obstacle), clearance, speed);
@@ -392,7 +393,7 @@ TEST_CASE("what misses goes on: balls that spin past round bodies that spin, all
 TEST_CASE("what misses goes on in every solver, and with continuous collision", "[physics]")
 {
   const Solver solver = GENERATE(from_range(choices<Solver>()));
-  for (Obstacle obstacle : obstacles)
+  for (Obstacle obstacle : all_obstacles)
     for (double speed : {5.0, 100.0}) {
       CAPTURE(solver, int(obstacle), speed);
       CHECK(largest_change(flights(obstacle, 0.001, speed, 3), settings_for(solver), speed) < 1e-3);

@@ -16,40 +16,40 @@ using namespace tandem::physics_tests;
 
 namespace {
 
-using Values = Eigen::VectorXd;
+using Numbers = Eigen::VectorXd;
 
 struct Column {
-  Values mass, speed; /* upwards */
+  Numbers mass, speed; /* upwards */
 };
 
 Column random_column(Random &random, int n)
 {
-  Column column{Values(n), Values(n)};
+  Column column{Numbers(n), Numbers(n)};
   for (int k = 0; k < n; ++k)
     column.mass[k] = float(random.uniform(0.5, 5)), column.speed[k] = float(random.uniform(-3, 2));
   return column;
 }
 
 /* Speeds after the impact, by trying every set of active contacts. */
-Values solve_by_enumeration(const Column &column, double step)
+Numbers solve_by_enumeration(const Column &column, double step)
 {
   const int n = int(column.mass.size());
   Eigen::MatrixXd jacobian = Eigen::MatrixXd::Identity(n, n);
   for (int k = 1; k < n; ++k) jacobian(k, k - 1) = -1;
-  const Values inverse_mass = column.mass.cwiseInverse(), free = column.speed - Values::Constant(n, gravity * step);
+  const Numbers inverse_mass = column.mass.cwiseInverse(), free = column.speed - Numbers::Constant(n, gravity * step);
   const Eigen::MatrixXd response = jacobian * inverse_mass.asDiagonal() * jacobian.transpose();
-  const Values apart = jacobian * free;
+  const Numbers apart = jacobian * free;
   for (unsigned set = 0; set < 1u << n; ++set) {
     std::vector<int> active;
     for (int k = 0; k < n; ++k)
       if (set >> k & 1) active.push_back(k);
-    Values impulse = Values::Zero(n);
+    Numbers impulse = Numbers::Zero(n);
     if (!active.empty()) {
       const Eigen::MatrixXd own = response(active, active);
-      const Values right = -apart(active), solved = own.ldlt().solve(right);
+      const Numbers right = -apart(active), solved = own.ldlt().solve(right);
       impulse(active) = solved;
     }
-    const Values speeds = response * impulse + apart;
+    const Numbers speeds = response * impulse + apart;
     if (impulse.minCoeff() >= -1e-12 && speeds.minCoeff() >= -1e-12)
       return free + inverse_mass.cwiseProduct(jacobian.transpose() * impulse);
   }
@@ -57,7 +57,7 @@ Values solve_by_enumeration(const Column &column, double step)
   return free;
 }
 
-Values solve_by_reference(const Column &column, double step)
+Numbers solve_by_reference(const Column &column, double step)
 {
   Scene scene = empty_scene();
   add_ground(scene);
@@ -70,7 +70,7 @@ Values solve_by_reference(const Column &column, double step)
   settings.iterations = 1000;
   World world(scene, settings, {"reference", {}, false});
   world.step();
-  Values speeds(column.mass.size());
+  Numbers speeds(column.mass.size());
   for (int k = 0; k < speeds.size(); ++k) speeds[k] = world.precise_bodies()[size_t(k) + 1].linear_velocity[1];
   return speeds;
 }
@@ -84,7 +84,7 @@ TEST_CASE("reference: impacts in a column agree with an independent dense solve"
   for (int trial = 0; trial < 30; ++trial) {
     const Column column = random_column(random, 1 + trial % 5);
     const double step = 1.0 / 1024;
-    const Values expected = solve_by_enumeration(column, step), found = solve_by_reference(column, step);
+    const Numbers expected = solve_by_enumeration(column, step), found = solve_by_reference(column, step);
     CAPTURE(trial, column.mass.transpose(), column.speed.transpose(), expected.transpose(), found.transpose());
     CHECK((found - expected).cwiseAbs().maxCoeff() < 1e-7); /* masses are inverted in float */
     (expected.cwiseAbs().maxCoeff() > 1e-3 ? parted : pressed) += 1;

@@ -9,7 +9,7 @@ namespace {
 
 const std::vector<float> restitutions{0.3f, 0.5f, 0.8f, 1.0f};
 const std::vector<float> heights{0.5f, 1.0f, 2.03f, 4.1f, 7.77f};
-constexpr float radius = 0.25f;
+constexpr float ball_radius = 0.25f;
 
 /* One ball for each restitution and height, far enough apart never to meet. */
 Scene drop_test()
@@ -19,7 +19,8 @@ Scene drop_test()
   for (float e : restitutions) {
     const uint32_t material = add_material(scene, 0.5f, e);
     for (float h : heights)
-      add_body(scene, BodyType::dynamic, sphere_shape(radius), {2.0f * float(scene.bodies.size()), radius + h, 0})
+      add_body(scene, BodyType::dynamic, sphere_shape(ball_radius),
+               {2.0f * float(scene.bodies.size()), ball_radius + h, 0})
           .material = material;
   }
   return scene;
@@ -29,7 +30,7 @@ Scene drop_test()
 double flight_height(const BodyState &state)
 {
   const double speed = state.linear_velocity[1];
-  return state.position[1] - radius + speed * speed / (2 * gravity);
+  return state.position[1] - ball_radius + speed * speed / (2 * gravity);
 }
 
 /* Heights after the first bounce, 0 for balls that have not bounced. */
@@ -70,8 +71,8 @@ TEST_CASE("an impact below the restitution speed does not bounce", "[physics]")
   Scene scene = empty_scene();
   scene.materials[0].restitution = 0.8f;
   add_ground(scene);
-  add_body(scene, BodyType::dynamic, sphere_shape(radius), {0, radius + 0.045f, 0}); /* 0.95 m/s */
-  add_body(scene, BodyType::dynamic, sphere_shape(radius), {2, radius + 0.055f, 0}); /* 1.05 m/s */
+  add_body(scene, BodyType::dynamic, sphere_shape(ball_radius), {0, ball_radius + 0.045f, 0}); /* 0.95 m/s */
+  add_body(scene, BodyType::dynamic, sphere_shape(ball_radius), {2, ball_radius + 0.055f, 0}); /* 1.05 m/s */
   World world(scene);
   const std::vector<double> rebound = rebound_heights(world, 60);
   CHECK(std::abs(rebound[1]) < 0.001);
@@ -83,7 +84,7 @@ TEST_CASE("a box that lands flat bounces to e^2 of its height and does not turn"
   Scene scene = empty_scene();
   scene.materials[0].restitution = 0.5f;
   add_ground(scene);
-  add_body(scene, BodyType::dynamic, box_shape(0.4f, radius, 0.3f), {0, radius + 2, 0});
+  add_body(scene, BodyType::dynamic, box_shape(0.4f, ball_radius, 0.3f), {0, ball_radius + 2, 0});
   World world(scene);
   const std::vector<double> rebound = rebound_heights(world, 60);
   CHECK(rebound[1] == Approx(0.25 * 2).epsilon(0.01));
@@ -94,8 +95,8 @@ TEST_CASE("two balls exchange their velocities when e is 1", "[physics]")
 {
   Scene scene = empty_scene({0, 0, 0});
   scene.materials[0].restitution = 1;
-  add_body(scene, BodyType::dynamic, sphere_shape(radius), {-2, 0, 0}).linear_velocity = {3, 0, 0};
-  add_body(scene, BodyType::dynamic, sphere_shape(radius), {0, 0, 0});
+  add_body(scene, BodyType::dynamic, sphere_shape(ball_radius), {-2, 0, 0}).linear_velocity = {3, 0, 0};
+  add_body(scene, BodyType::dynamic, sphere_shape(ball_radius), {0, 0, 0});
   World world(scene);
   run(world, 60);
   CHECK(std::abs(world.bodies()[0].linear_velocity[0]) < 1e-5);

@@ -22,14 +22,14 @@ Settings direct(double step = 1.0 / 60, uint32_t substeps = 4)
 constexpr double instant = 1e-5; /* s: nothing moves noticeably within a step */
 constexpr float overlap = 1e-5f; /* m: within the slop, so that neither distance nor penetration asks for a speed */
 
-struct Case {
+struct OracleCase {
   Scene scene;
   std::vector<OracleManifold> manifolds;
 };
 
-Case sliding_cube()
+OracleCase sliding_cube()
 {
-  Case c{empty_scene(), {}};
+  OracleCase c{empty_scene(), {}};
   c.scene.materials[0].static_friction = c.scene.materials[0].dynamic_friction = 0.4f;
   add_ground(c.scene);
   Body &cube = add_body(c.scene, BodyType::dynamic, box_shape(0.5f, 0.5f, 0.5f), {0, 0.5f - overlap, 0});
@@ -40,9 +40,9 @@ Case sliding_cube()
 }
 
 /* Cubes that get smaller, of unlike masses, the upper ones kicked. */
-Case kicked_tower()
+OracleCase kicked_tower()
 {
-  Case c{empty_scene(), {}};
+  OracleCase c{empty_scene(), {}};
   c.scene.materials[0].static_friction = c.scene.materials[0].dynamic_friction = 0.5f;
   add_ground(c.scene);
   float height = 0;
@@ -59,9 +59,9 @@ Case kicked_tower()
 }
 
 /* A ball thrown into a groove between two half-spaces. */
-Case ball_in_wedge()
+OracleCase ball_in_wedge()
 {
-  Case c{empty_scene(), {}};
+  OracleCase c{empty_scene(), {}};
   c.scene.materials[0].static_friction = c.scene.materials[0].dynamic_friction = 0.3f;
   const float radius = 0.5f;
   Body &ball =
@@ -79,7 +79,7 @@ Case ball_in_wedge()
   return c;
 }
 
-void require_oracle(const Case &c, const std::string &backend)
+void require_oracle(const OracleCase &c, const std::string &backend)
 {
   World world(c.scene, direct(instant, 1), Placement{backend, {}, false});
   world.step();
@@ -113,7 +113,7 @@ struct Stand {
   uint32_t stalled = 0;
 };
 
-Stand stand(const Scene &scene, const Settings &settings, int steps)
+Stand stand_still(const Scene &scene, const Settings &settings, int steps)
 {
   World world(scene, settings, Placement{"tbb:threads=1", {}, false});
   Stand result;
@@ -152,7 +152,8 @@ TEST_CASE("direct: a heavy box stands on a light one, where the soft step sinks"
 {
   const float ratio = GENERATE(1000.0f, 10000.0f);
   const Scene scene = stack({1, ratio});
-  const Stand exact = stand(scene, direct(), 120), soft = stand(scene, settings_for(Solver::soft_step), 120);
+  const Stand exact = stand_still(scene, direct(), 120),
+              soft = stand_still(scene, settings_for(Solver::soft_step), 120);
   INFO("1 : " << ratio << ": direct " << exact.deepest << " m deep, soft-step " << soft.deepest << "; stalled "
               << exact.stalled);
   CHECK(exact.deepest < 0.001);
@@ -164,7 +165,7 @@ TEST_CASE("direct: twenty boxes whose masses double stand", "[physics][direct]")
 {
   std::vector<float> masses;
   for (int k = 0; k < 20; ++k) masses.push_back(float(1 << k));
-  const Stand result = stand(stack(masses), direct(), 40);
+  const Stand result = stand_still(stack(masses), direct(), 40);
   INFO("twenty boxes, 1 to 524288 kg: " << result.deepest << " m deep, sideways " << result.sideways << " m; stalled "
                                         << result.stalled);
   CHECK(result.deepest < 0.001);
@@ -173,7 +174,7 @@ TEST_CASE("direct: twenty boxes whose masses double stand", "[physics][direct]")
 
 TEST_CASE("direct: a stack of ten stands three hundred steps", "[physics][direct]")
 {
-  const Stand result = stand(stack(std::vector<float>(10, 1.0f)), direct(), 300);
+  const Stand result = stand_still(stack(std::vector<float>(10, 1.0f)), direct(), 300);
   INFO("ten boxes: " << result.deepest << " m deep, sideways " << result.sideways << " m, " << result.energy
                      << " J; stalled " << result.stalled);
   CHECK(result.deepest < 1e-4);

@@ -10,13 +10,14 @@ using namespace tandem::physics_tests;
 
 namespace {
 
-struct Case {
+struct SolverCase {
   Solver solver;
   uint32_t substeps, iterations; /* 0: the solver's own */
 };
-const std::vector<Case> cases{{Solver::pgs, 0, 0}, {Solver::nncg, 0, 0}, {Solver::pgs, 4, 2}, {Solver::nncg, 4, 3}};
+const std::vector<SolverCase> cases{
+    {Solver::pgs, 0, 0}, {Solver::nncg, 0, 0}, {Solver::pgs, 4, 2}, {Solver::nncg, 4, 3}};
 
-Settings settings_of(const Case &c)
+Settings settings_of(const SolverCase &c)
 {
   Settings settings = settings_for(c.solver);
   if (c.substeps > 0) settings.substeps = c.substeps;
@@ -24,7 +25,7 @@ Settings settings_of(const Case &c)
   return settings;
 }
 
-std::string name_of(const Case &c)
+std::string name_of(const SolverCase &c)
 {
   return std::string(name_of(c.solver)) + ", substeps " + std::to_string(c.substeps) + ", iterations " +
          std::to_string(c.iterations);
@@ -171,7 +172,7 @@ double residual_after(Solver solver, uint32_t sweeps, const Scene &scene)
 
 TEST_CASE("pgs and nncg: free fall follows the parabola", "[physics]")
 {
-  for (const Case &c : cases) {
+  for (const SolverCase &c : cases) {
     Scene scene = empty_scene();
     add_body(scene, BodyType::dynamic, box_shape(0.5f, 0.5f, 0.5f), {0, 20, 0}).linear_velocity = {3, 2, 0};
     World world(scene, settings_of(c));
@@ -184,7 +185,7 @@ TEST_CASE("pgs and nncg: free fall follows the parabola", "[physics]")
 
 TEST_CASE("pgs and nncg: a stack of ten boxes stands", "[physics]")
 {
-  for (const Case &c : cases) {
+  for (const SolverCase &c : cases) {
     World world(load_scene("box-stack:n=10,height=10"), settings_of(c));
     const std::vector<BodyState> start = world.bodies();
     run(world, 300);
@@ -206,7 +207,7 @@ TEST_CASE("pgs and nncg: a stack of ten boxes stands", "[physics]")
 
 TEST_CASE("pgs and nncg: a block of boxes stays bounded", "[physics]")
 {
-  for (const Case &c : cases) {
+  for (const SolverCase &c : cases) {
     World world(load_scene("box-grid:nx=4,ny=8,nz=4"), settings_of(c));
     double highest_at_start = 0;
     for (const BodyState &state : world.bodies())
@@ -263,7 +264,7 @@ TEST_CASE("pgs and nncg: a pile of all shapes gains no energy however many sweep
 
 TEST_CASE("pgs and nncg: boxes slip within 2 degrees of atan mu", "[physics]")
 {
-  for (const Case &c : cases) {
+  for (const SolverCase &c : cases) {
     Scene scene = empty_scene();
     add_inclines(scene, {0.1, 0.3, 0.6, 1.0}, 2 * radians);
     World world(scene, settings_of(c));
@@ -280,7 +281,7 @@ TEST_CASE("pgs and nncg: boxes slip within 2 degrees of atan mu", "[physics]")
 
 TEST_CASE("pgs and nncg: a ball returns to e squared of its height", "[physics]")
 {
-  for (const Case &c : cases)
+  for (const SolverCase &c : cases)
     for (float e : {0.3f, 0.7f, 1.0f}) {
       Scene scene = empty_scene();
       add_ground(scene).material = add_material(scene, 0.5f, e);
@@ -300,7 +301,7 @@ TEST_CASE("pgs and nncg: a ball returns to e squared of its height", "[physics]"
 
 TEST_CASE("pgs and nncg: a closed system keeps its momentum and gains no energy", "[physics]")
 {
-  for (const Case &c : cases)
+  for (const SolverCase &c : cases)
     for (float e : {0.0f, 0.5f}) {
       World world(collision(e), settings_of(c));
       const Momentum start = momentum_of(world);
@@ -360,7 +361,7 @@ TEST_CASE("pgs and nncg: constraints without a colour are solved too", "[physics
     add_body(scene, BodyType::dynamic, box_shape(0.2f, 0.2f, 0.2f),
              {0.5f * float(i % 9) - 2, 0.7f, 0.5f * float(i / 9) - 2})
         .mass = 0.5f;
-  for (const Case &c : cases) {
+  for (const SolverCase &c : cases) {
     World world(scene, settings_of(c));
     const std::vector<BodyState> start = world.bodies();
     run(world, 60);

@@ -1,6 +1,7 @@
 /* Triggers: the bodies that are reported, from when to when against closed forms, and that no body is pushed. */
 #include "tests/catch.h"
 #include "tests/physics/bodies.h"
+#include "tests/physics/event_settings.h"
 
 using namespace tandem;
 using namespace tandem::physics_tests;
@@ -8,13 +9,6 @@ using namespace tandem::physics_tests;
 namespace {
 
 using Kind = ContactEvent::Kind;
-
-Settings with_events()
-{
-  Settings settings;
-  settings.events = true;
-  return settings;
-}
 
 double distance_to_box(const Vector &p, const Vector &half) { return (p.cwiseAbs() - half).cwiseMax(0.0).norm(); }
 

@@ -156,9 +156,9 @@ void refuse_empty_values(const CLI::App &parser)
 
 std::vector<Command> add_commands(CLI::App &parser)
 {
-  return {devices_command(parser), scenes_command(parser),    run_command(parser),
-          diff_command(parser),    plan_command(parser),      bench_command(parser),
-          report_command(parser),  stability_command(parser), contact_problem_command(parser)};
+  return {devices_command(parser), scenes_command(parser), run_command(parser),    replay_command(parser),
+          diff_command(parser),    plan_command(parser),   bench_command(parser),  report_command(parser),
+          stability_command(parser), contact_problem_command(parser)};
 }
 
 int execute_parsed(const std::vector<Command> &commands)

@@ -63,6 +63,7 @@ SceneOptions::SceneOptions(CLI::App &parser, bool one_backend)
   if (one_backend) option("--on", on_, "backend: serial, tbb[:threads=N,lanes=N], cl, cl:P.D, cl:PART-OF-A-NAME", "B");
   option("--place", place_, "run a stage or a kernel elsewhere: narrowphase=cl,solve=tbb", "STAGE=B,...");
   option("--steps", steps_, "how many steps", "N");
+  steps_option_ = parser.get_option("--steps");
   option("--dt", step_, "time step in seconds, or a fraction 1/N", "S");
   option("--substeps", substeps_, "substeps of a step; what the solver wants if not given", "N");
   option("--iterations", iterations_, "solver passes of a substep; what the solver wants if not given", "N");
@@ -127,6 +128,11 @@ Placement SceneOptions::placement() const
 }
 
 uint64_t SceneOptions::steps() const { return whole_number("--steps", steps_, 1, most_steps); }
+
+std::optional<uint64_t> SceneOptions::steps_given() const
+{
+  return steps_option_->count() > 0 ? std::optional(steps()) : std::nullopt;
+}
 
 Scene SceneOptions::scene(DistinctFiles &files) const
 {

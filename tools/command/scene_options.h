@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -31,6 +32,7 @@ public:
   Settings settings() const;
   Placement placement() const;
   uint64_t steps() const;
+  std::optional<uint64_t> steps_given() const; /* none without --steps */
   /* Throws InputError also if one of `files` is an output and the scene is read from it. */
   Scene scene(DistinctFiles &files) const;
   const std::string &scene_text() const { return scene_; }
@@ -40,6 +42,7 @@ public:
   std::string typed_again(const std::string &broadphase) const;
 
 private:
+  const CLI::Option *steps_option_ = nullptr;
   std::string scene_, on_ = "tbb", place_, steps_ = "120", step_, substeps_, iterations_;
   std::string solver_, broadphase_, bounds_, midphase_, narrowphase_, support_, support_cells_, batching_, max_pairs_;
   bool no_specialise_ = false, inexact_ = false, check_ = false, events_ = false, outside_files_ = false;

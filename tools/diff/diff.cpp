@@ -6,12 +6,14 @@
 
 #include <tandem/compare.h>
 
+#include "host/base/printable.h"
 #include "host/runtime/backend_list.h"
 #include "host/runtime/interface/module.h"
 #include "tools/command/command.h"
 #include "tools/command/output.h"
 #include "tools/command/progress.h"
 #include "tools/command/scene_options.h"
+#include "tools/replay/recording_file.h"
 
 namespace tandem {
 namespace {
@@ -84,6 +86,9 @@ std::string shell_quoted(const std::string &text)
 std::string gdb_line(const Difference &difference, const SceneOptions &options, const std::string &broadphase)
 {
   if (difference.breakpoint.empty()) return "";
+  if (names_recording(options.scene_text()))
+    return fmt::format("gdb -ex 'break {}' -ex run --args tandem replay {} --on serial", difference.breakpoint,
+                       shell_quoted(options.scene_text()));
   return fmt::format("gdb -ex 'break {}' -ex run --args tandem run {} --on serial --steps {}{}", difference.breakpoint,
                      shell_quoted(options.scene_text()), difference.step + 1, options.typed_again(broadphase));
 }
@@ -93,10 +98,17 @@ std::string kernel_name(const Difference &difference)
   return difference.kernel ? row_of(*difference.kernel).name : "";
 }
 
+/* Bodies that a recording creates are not in its first scene. */
+std::string name_in(const Scene &scene, uint32_t body)
+{
+  return body < scene.bodies.size() ? scene.bodies[body].name : "";
+}
+
 Json bodies_json(const Difference &difference, const Scene &scene)
 {
   Json bodies = Json::array();
-  for (const uint32_t body : difference.bodies) bodies.push_back({{"index", body}, {"name", scene.bodies[body].name}});
+  for (const uint32_t body : difference.bodies)
+    bodies.push_back({{"index", body}, {"name", name_in(scene, body)}});
   return bodies;
 }
 
@@ -143,7 +155,7 @@ std::string bodies_text(const Difference &difference, const Scene &scene)
 {
   std::vector<std::string> names;
   for (const uint32_t body : difference.bodies) {
-    const std::string &name = scene.bodies[body].name;
+    const std::string name = name_in(scene, body);
     names.push_back(name.empty() ? fmt::format("{}", body) : fmt::format("{} '{}'", body, name));
   }
   return fmt::format("{}", fmt::join(names, " and "));
@@ -187,6 +199,21 @@ std::string quarantine_text(const std::vector<Quarantine> &lost, const std::stri
       scene.bodies.size(), backend, first.body, first.name, first.step, first.stage);
 }
 
+/* The worlds of a recording begin with its snapshot, and its calls are made before each step. `request` refers to the
+ * result. */
+WorldRecording take_recording(const DiffOptions &options, DistinctFiles &files, ComparisonRequest &request)
+{
+  const std::string given = options.scene.typed_again(name_of(Settings{}.broadphase));
+  if (!given.empty() || request.settings.broadphase != Settings{}.broadphase)
+    throw InputError(fmt::format("{}: a recording has settings of its own; leave out{}",
+                                 printable(options.scene.scene_text()), given.empty() ? " --broadphase" : given));
+  WorldRecording recording = read_recording(options.scene.scene_text(), files);
+  if (recording.steps() == 0)
+    throw InputError(fmt::format("{}: the recording has no step to compare", printable(options.scene.scene_text())));
+  request.steps = std::min(options.scene.steps_given().value_or(recording.steps()), recording.steps());
+  return recording;
+}
+
 int execute(const DiffOptions &options)
 {
   ComparisonRequest request;
@@ -200,7 +227,13 @@ int execute(const DiffOptions &options)
   request.inject_fault = fault_injector(options.plant, request.backends.size() - 1, not_planted);
   DistinctFiles files;
   options.json.check(files);
-  const Scene scene = options.scene.scene(files);
+  std::optional<WorldRecording> recording;
+  if (names_recording(options.scene.scene_text())) recording = take_recording(options, files, request);
+  const Scene scene = recording ? World(recording->snapshot(), {"serial", {}}).scene() : options.scene.scene(files);
+  if (recording) {
+    request.snapshot = recording->snapshot();
+    request.before_step = [&](World &world, uint64_t step) { recording->make_calls(world, step); };
+  }
   Progress progress("comparing", request.steps);
   request.after_step = [&](uint64_t done) { progress.update(done); };
   const Comparison comparison = compare_backends(scene, request);

@@ -16,6 +16,7 @@
 #include "tools/command/progress.h"
 #include "tools/command/scene_options.h"
 #include "tools/plot/image.h"
+#include "tools/replay/recording_file.h"
 #include "tools/run/event_file.h"
 #include "tools/run/trace.h"
 
@@ -25,7 +26,7 @@ namespace {
 struct RunOptions {
   explicit RunOptions(CLI::App &parser) : scene(parser, true) {}
   SceneOptions scene;
-  std::string save, image, image_size = "960x540", camera, trace, events;
+  std::string save, image, image_size = "960x540", camera, trace, events, record, record_snapshots;
   bool allow_quarantine = false;
   JsonOutput json;
 };
@@ -55,6 +56,15 @@ void add_options(CLI::App &parser, RunOptions &options)
       .add_option("--events", options.events,
                   "write which bodies begin, go on and cease to touch in each step, and how hard")
       ->type_name("F.json");
+  CLI::Option *record = parser.add_option("--record", options.record,
+                                          "write a recording for `tandem replay` and `tandem diff`: a snapshot, and a "
+                                          "hash a step, which makes steps take longer")
+                            ->type_name("F.tandem");
+  parser
+      .add_option("--record-snapshots", options.record_snapshots,
+                  "with another snapshot every N steps, from which a replay can start")
+      ->type_name("N")
+      ->needs(record);
   parser.add_option("--json", options.json.path, "write the results as JSON; - for standard output")->type_name("FILE");
   parser.add_flag("--allow-quarantine", options.allow_quarantine,
                   "exit status 0 also where bodies stopped being finite and were taken out");
@@ -74,13 +84,16 @@ void check_files(const RunOptions &options, DistinctFiles &files)
   files.writes("--save", options.save);
   files.writes("--trace", options.trace);
   files.writes("--events", options.events);
+  if (!options.record.empty() && !names_recording(options.record))
+    throw InputError(fmt::format("--record '{}': the name of a recording ends in .tandem", printable(options.record)));
+  files.writes("--record", options.record);
   options.json.check(files);
 }
 
 /* The animation during recording; does nothing without --save. */
-class Recording {
+class AnimationFrames {
 public:
-  Recording(const std::string &path, World &world) : world_(world)
+  AnimationFrames(const std::string &path, World &world) : world_(world)
   {
     if (path.empty()) return;
     writer_ = std::make_unique<AnimationWriter>(world.scene(), path);
@@ -215,7 +228,7 @@ void print_warnings(const Outcome &outcome, World &world, bool allow_quarantine)
 
 Outcome simulate(World &world, const RunOptions &options, uint64_t steps)
 {
-  Recording recording(options.save, world);
+  AnimationFrames frames(options.save, world);
   std::optional<Trace> trace;
   if (!options.trace.empty()) trace.emplace(world);
   std::optional<EventFile> events;
@@ -225,12 +238,12 @@ Outcome simulate(World &world, const RunOptions &options, uint64_t steps)
   if (trace) trace->begin_step();
   outcome.measurement = measure(world, steps, [&](uint64_t done) {
     if (trace) trace->end_step(done - 1);
-    recording.add_frame(done);
+    frames.add_frame(done);
     if (events) events->add_step(done - 1, world);
     progress.update(done);
     if (trace) trace->begin_step();
   });
-  recording.finish();
+  frames.finish();
   if (events) events->finish();
   if (trace) write_file("--trace", options.trace, trace->json());
   outcome.statistics = world.statistics();
@@ -248,6 +261,15 @@ void save_image(const RunOptions &options, World &world)
   write_png(options.image, draw(world, camera), width, height);
 }
 
+void start_recording(const RunOptions &options, World &world)
+{
+  if (options.record.empty()) return;
+  RecordingOptions recording;
+  if (!options.record_snapshots.empty())
+    recording.snapshot_every = whole_number("--record-snapshots", options.record_snapshots, 1, 1'000'000'000);
+  world.start_recording(options.record, recording);
+}
+
 int execute(const RunOptions &options)
 {
   Settings settings = options.scene.settings();
@@ -257,7 +279,9 @@ int execute(const RunOptions &options)
   DistinctFiles files;
   check_files(options, files);
   World world(options.scene.scene(files), settings, placement);
+  start_recording(options, world);
   const Outcome outcome = simulate(world, options, steps);
+  world.stop_recording();
   save_image(options, world);
   if (!options.json.takes_standard_output()) print_outcome(outcome, world, placement);
   print_warnings(outcome, world, options.allow_quarantine);

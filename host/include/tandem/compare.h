@@ -10,9 +10,11 @@
  */
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -42,7 +44,13 @@ struct ComparisonRequest {
   Placement placement{};             /* `on` is replaced by each of the backends */
   std::vector<std::string> backends{}; /* two or more; the first is the reference */
   uint64_t steps = 1;
+  /* Optional: World::save(). The worlds begin as it says, with its settings in place of those above; `scene` is then
+   * that of the snapshot. It must outlive the comparison. */
+  std::span<const std::byte> snapshot{};
   FaultInjector inject_fault{};                                 /* optional */
+  /* Optional: what a program does with each of the worlds before a step. It must do the same to equal worlds, because
+   * worlds are stepped in turn, and again from the start where they differ. */
+  std::function<void(World &world, uint64_t step)> before_step{};
   std::function<void(uint64_t done)> after_step{}; /* optional: progress */
 };
 

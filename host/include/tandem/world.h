@@ -10,6 +10,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -24,6 +25,7 @@
 #include <tandem/export.h>
 #include <tandem/features.h>
 #include <tandem/queries.h>
+#include <tandem/recording.h>
 #include <tandem/scene.h>
 #include <tandem/settings.h>
 
@@ -81,7 +83,52 @@ struct KernelTime {
 class TANDEM_API World {
 public:
   World(const Scene &scene, const Settings &settings = {}, const Placement &placement = {});
+  /* A world as save() found it, on any placement. extensions: those of the settings of the world that was saved, with
+   * the same modules in the same order, because a snapshot holds no functions; `prepare` of them is not called, and
+   * buffers of modules have the contents that they had. Throws InputError if the bytes are damaged, cut off, of another
+   * format or no snapshot, and whatever the constructor above throws. */
+  explicit World(std::span<const std::byte> snapshot, const Placement &placement = {},
+                 std::vector<Extension> extensions = {});
   ~World();
+
+  /* All that decides the bits of the next steps and calls: the scene, the settings, bodies with their handles, free
+   * indices, and what steps hand on to each other. Calls so far are part of it. It does not depend on the backends: a
+   * world that is made of it anywhere goes on with the same bits. Only the reference backend loses what its doubles
+   * have beyond floats. The events and contact figures of the last step are not part of it. Bytes are little-endian and
+   * carry their format and a hash (docs/recordings.md). */
+  std::vector<std::byte> save();
+  /* Makes this world what it was, or another world was, when save() was called; settings and scene become those of the
+   * snapshot, placement, observer and profiling stay. Calls that no step has applied yet are dropped. Handles of bodies
+   * that were created since are stale: they may name no body, or, if bodies are created again, another one. References
+   * that scene(), settings(), memory() and others returned before become invalid. If it throws (as the constructor
+   * does), the world is unchanged. */
+  void restore(std::span<const std::byte> snapshot);
+
+  /* Writes from now on what is done with this world to a file: a snapshot, each call with its arguments, and a hash a
+   * step (<tandem/recording.h>). Placements, queries and other reading are not part of it. States that were kept before
+   * are forgotten. The file is complete up to the last step at any time, in case the program ends without
+   * stop_recording. Throws InputError if the file cannot be written. If writing fails later, the world goes on, and
+   * stop_recording throws InputError. A world records to one file at a time; a second call ends the first recording. */
+  void start_recording(const std::string &path, const RecordingOptions &options = {});
+  void stop_recording(); /* does nothing unless the world records */
+
+  /* --- the last states ---
+   * They stay in the memory of the devices that made them, so that keeping one costs a copy there and nothing goes
+   * through the host. */
+
+  /* Makes room for so many states, 0 to 10,000, and keeps the present one, calls included; those kept before are gone.
+   * after_steps: each step keeps its state, in place of the oldest. 0 frees the room. OutOfMemory: nothing has
+   * changed. */
+  void keep_states(uint32_t states, bool after_steps = true);
+  void keep_state(); /* keeps the present state, calls so far included; InputError without room */
+  uint32_t states_kept() const;
+  /* Returns to a state that was kept, 0 the newest, states_kept() - 1 the oldest; the next steps have the same bits as
+   * the steps after it had. The states after it are forgotten, calls since then are dropped, and bodies that came or
+   * went since are as they were; as restore() says, handles made since are stale. There are no events and contact
+   * figures until a step. What World::write wrote to buffers of modules stays. Throws InputError if the state is not
+   * kept: a call that lays the buffers out anew (the first body of a new kind, more room for bodies) and restore()
+   * forget all states, and the message says so. The world is then unchanged. */
+  void go_back(uint32_t states);
 
   /* Advances by settings.step. Throws std::runtime_error if a device fails, memory runs out (OutOfMemory: what was
    * requested, and for how many bodies and pairs) or more pairs are found than Settings::max_pairs. The state is then
@@ -110,6 +157,7 @@ public:
   /* Handle of the body with this index, which Scene::bodies, events and hits of queries use. */
   BodyId id_of(uint32_t body) const;
   bool exists(const BodyId &id) const;
+  std::vector<BodyId> body_ids() const; /* of all bodies that exist, in the order of their indices */
   uint32_t body_count() const; /* of the bodies that exist */
 
   /* Adds bodies of the shapes and materials of scene(), as they are in it now. What they need is checked as validate()

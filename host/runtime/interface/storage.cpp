@@ -44,6 +44,7 @@ public:
   {
     std::memcpy(to, static_cast<const char *>(handle) + offset, bytes);
   }
+  void copy(void *from, void *to, size_t bytes) override { std::memcpy(to, from, bytes); }
 };
 
 } // namespace

@@ -22,6 +22,8 @@ public:
   virtual void release(void *handle) noexcept = 0;
   virtual void write(void *handle, size_t offset, const void *from, size_t bytes) = 0;
   virtual void read(void *handle, size_t offset, void *to, size_t bytes) = 0; /* waits */
+  /* Copies the first bytes from one buffer to another of the same elements; in a device without waiting. */
+  virtual void copy(void *from, void *to, size_t bytes) = 0;
   /* Reads reals of a buffer of float4s or reals in the precision in which this storage keeps them. */
   virtual void read_reals(void *handle, size_t first, double *to, size_t count);
   /* True if reals are doubles; only then may write_reals be called. */

@@ -168,6 +168,16 @@ void DeviceStorage::read(void *handle, size_t offset, void *to, size_t bytes)
   if (code != CL_SUCCESS) fail(context_, "reading", bytes, code);
 }
 
+void DeviceStorage::copy(void *from, void *to, size_t bytes)
+{
+  if (bytes == 0) return;
+  const cl_int code = code_of(faults::Site::transfer, [&] {
+    return clEnqueueCopyBuffer(context_.queue(), static_cast<DeviceBuffer *>(from)->memory,
+                               static_cast<DeviceBuffer *>(to)->memory, 0, 0, bytes, 0, nullptr, nullptr);
+  });
+  if (code != CL_SUCCESS) fail(context_, "copying", bytes, code);
+}
+
 void DeviceStorage::wait()
 {
   const cl_int code = code_of(faults::Site::transfer, [&] { return finish_queue(context_); });

@@ -124,7 +124,7 @@ void check_queries(std::span<const AxisAlignedBox> boxes, int queries)
   for (int i = 0; i < queries; ++i) check_query(bvh, boxes, random_box(random, 12, i % 8));
 }
 
-std::string refusal(const std::vector<AxisAlignedBox> &boxes)
+std::string refusal_of_boxes(const std::vector<AxisAlignedBox> &boxes)
 {
   return complaint([&] { build_bvh(boxes, "hall.glb"); });
 }
@@ -249,10 +249,10 @@ TEST_CASE("bvh: what has no hierarchy is refused by name")
 {
   const float nan = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
   const float largest = std::numeric_limits<float>::max();
-  CHECK_THAT(refusal({}), ContainsSubstring("hall.glb: a hierarchy needs at least one box"));
-  CHECK_THAT(refusal({{{0, 0, 0}, {1, 1, 1}}, {{0, 2, 0}, {1, 1, 1}}}),
+  CHECK_THAT(refusal_of_boxes({}), ContainsSubstring("hall.glb: a hierarchy needs at least one box"));
+  CHECK_THAT(refusal_of_boxes({{{0, 0, 0}, {1, 1, 1}}, {{0, 2, 0}, {1, 1, 1}}}),
              ContainsSubstring("hall.glb: box 1 runs from 2 to 1 along y"));
-  CHECK_THAT(refusal({{{0, 0, nan}, {1, 1, 1}}}), ContainsSubstring("box 0 runs from nan to 1 along z"));
-  CHECK_THAT(refusal({{{0, 0, 0}, {infinity, 1, 1}}}), ContainsSubstring("along x; finite numbers"));
-  CHECK_THAT(refusal({{{-largest, 0, 0}, {largest, 1, 1}}}), ContainsSubstring("wider than floats can tell"));
+  CHECK_THAT(refusal_of_boxes({{{0, 0, nan}, {1, 1, 1}}}), ContainsSubstring("box 0 runs from nan to 1 along z"));
+  CHECK_THAT(refusal_of_boxes({{{0, 0, 0}, {infinity, 1, 1}}}), ContainsSubstring("along x; finite numbers"));
+  CHECK_THAT(refusal_of_boxes({{{-largest, 0, 0}, {largest, 1, 1}}}), ContainsSubstring("wider than floats can tell"));
 }

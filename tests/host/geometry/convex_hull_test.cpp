@@ -13,7 +13,7 @@ using Catch::Matchers::ContainsSubstring;
 
 namespace {
 
-double height(const HullPlane &plane, const Vec3 &p)
+double height_over(const HullPlane &plane, const Vec3 &p)
 {
   return vector_of(plane.normal).dot(vector_of(p)) - plane.distance;
 }
@@ -58,7 +58,7 @@ void check_faces(const ConvexHull &hull)
     REQUIRE(*std::min_element(hull.faces[face].begin(), hull.faces[face].end()) == hull.faces[face][0]);
     for (uint32_t corner : hull.faces[face]) {
       ++faces_at.at(corner);
-      REQUIRE(height(hull.planes[face], hull.vertices[corner]) >= -3 * hull.tolerance);
+      REQUIRE(height_over(hull.planes[face], hull.vertices[corner]) >= -3 * hull.tolerance);
     }
     REQUIRE(dent(hull, face) <= hull.tolerance * 1.01);
   }
@@ -72,10 +72,10 @@ void check_planes(const ConvexHull &hull, const std::vector<Vec3> &points)
   for (const HullPlane &plane : hull.planes) {
     REQUIRE(std::abs(vector_of(plane.normal).norm() - 1) < 1e-14);
     double highest = -std::numeric_limits<double>::infinity();
-    for (const Vec3 &v : hull.vertices) highest = std::max(highest, height(plane, v));
+    for (const Vec3 &v : hull.vertices) highest = std::max(highest, height_over(plane, v));
     REQUIRE(std::abs(highest) <= 4e-16 * largest); /* all vertices satisfy it to rounding, and one touches it */
-    for (const Vec3 &p : points) REQUIRE(height(plane, p) <= 4 * hull.tolerance);
-    REQUIRE(height(plane, {float(hull.centroid[0]), float(hull.centroid[1]), float(hull.centroid[2])}) < 0);
+    for (const Vec3 &p : points) REQUIRE(height_over(plane, p) <= 4 * hull.tolerance);
+    REQUIRE(height_over(plane, {float(hull.centroid[0]), float(hull.centroid[1]), float(hull.centroid[2])}) < 0);
   }
 }
 
@@ -104,7 +104,7 @@ std::array<size_t, 3> sizes(const ConvexHull &hull)
 
 using Sizes = std::array<size_t, 3>;
 
-std::string refusal(const std::vector<Vec3> &points)
+std::string refusal_of_points(const std::vector<Vec3> &points)
 {
   return complaint([&] { convex_hull(points, "rock.obj"); });
 }
@@ -297,13 +297,13 @@ TEST_CASE("convex hull: any cloud of points gives a closed convex surface", "[sa
 TEST_CASE("convex hull: what has no hull is refused by name")
 {
   const float nan = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
-  CHECK_THAT(refusal({}), ContainsSubstring("rock.obj: a hull needs four different points, not 0"));
-  CHECK_THAT(refusal({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}), ContainsSubstring("not 3"));
-  CHECK_THAT(refusal({{1, 1, 1}, {1, 1, 1}, {1, 1, 1}, {1, 1, 1}}), ContainsSubstring("not 1"));
-  CHECK_THAT(refusal({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, nan, 1}}),
+  CHECK_THAT(refusal_of_points({}), ContainsSubstring("rock.obj: a hull needs four different points, not 0"));
+  CHECK_THAT(refusal_of_points({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}), ContainsSubstring("not 3"));
+  CHECK_THAT(refusal_of_points({{1, 1, 1}, {1, 1, 1}, {1, 1, 1}, {1, 1, 1}}), ContainsSubstring("not 1"));
+  CHECK_THAT(refusal_of_points({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, nan, 1}}),
              ContainsSubstring("rock.obj: point 3 is [0, nan, 1]"));
-  CHECK_THAT(refusal({{0, 0, 0}, {1, 0, infinity}, {0, 1, 0}, {0, 0, 1}}), ContainsSubstring("point 1"));
-  CHECK_THAT(refusal({{1, 1, 1}, {1, 1, 1 + 0x1p-23f}, {1, 1 + 0x1p-23f, 1}, {1 + 0x1p-23f, 1, 1}}),
+  CHECK_THAT(refusal_of_points({{0, 0, 0}, {1, 0, infinity}, {0, 1, 0}, {0, 0, 1}}), ContainsSubstring("point 1"));
+  CHECK_THAT(refusal_of_points({{1, 1, 1}, {1, 1, 1 + 0x1p-23f}, {1, 1 + 0x1p-23f, 1}, {1 + 0x1p-23f, 1, 1}}),
              ContainsSubstring("4 points lie in one place"));
   std::vector<Vec3> line, plane;
   Random random(1);
@@ -312,6 +312,6 @@ TEST_CASE("convex hull: what has no hull is refused by name")
     line.push_back({t, 2 * t, -t});
     plane.push_back({t, s, 0.3f * t - 0.7f * s});
   }
-  CHECK_THAT(refusal(line), ContainsSubstring("all 40 points lie in a line"));
-  CHECK_THAT(refusal(plane), ContainsSubstring("all 40 points lie in a plane"));
+  CHECK_THAT(refusal_of_points(line), ContainsSubstring("all 40 points lie in a line"));
+  CHECK_THAT(refusal_of_points(plane), ContainsSubstring("all 40 points lie in a plane"));
 }

@@ -16,14 +16,14 @@ namespace {
 using Vector = Eigen::Vector3d;
 using Matrix = Eigen::Matrix3d;
 
-Vector vector_of(const Vec3 &v) { return {v[0], v[1], v[2]}; }
-Vector vector_of(const Double3 &v) { return {v[0], v[1], v[2]}; }
+Vector eigen(const Vec3 &v) { return {v[0], v[1], v[2]}; }
+Vector eigen(const Double3 &v) { return {v[0], v[1], v[2]}; }
 Eigen::Quaterniond turn_of(const Quat &q) { return Eigen::Quaterniond(q[3], q[0], q[1], q[2]).normalized(); }
 
 Vector in_world(const Body &body, const Vector &p)
 {
-  return vector_of(body.position) +
-         turn_of(body.orientation) * (vector_of(body.shape_position) + turn_of(body.shape_orientation) * p);
+  return eigen(body.position) +
+         turn_of(body.orientation) * (eigen(body.shape_position) + turn_of(body.shape_orientation) * p);
 }
 
 /* Is p in the hull of two spheres? The nearest point of any sphere of the family between them, looked for by ternary
@@ -53,7 +53,7 @@ bool in_shape(const Shape &shape, const Vector &p)
     return std::abs(p.y()) <= b && std::hypot(p.x(), p.z()) <= a + (c - a) * (p.y() / b + 1) / 2;
   case ShapeType::hull:
     return std::all_of(shape.hull->planes.begin(), shape.hull->planes.end(),
-                       [&](const HullPlane &plane) { return vector_of(plane.normal).dot(p) <= plane.distance; });
+                       [&](const HullPlane &plane) { return eigen(plane.normal).dot(p) <= plane.distance; });
   default: return false;
   }
 }
@@ -78,7 +78,7 @@ AxisAlignedBox bounds_of(const Shape &shape)
 Sum summed(const Body &body, const Shape &shape, int cells)
 {
   const AxisAlignedBox bounds = bounds_of(shape);
-  const Vector low = vector_of(bounds.lower), side = (vector_of(bounds.upper) - low) / cells;
+  const Vector low = eigen(bounds.lower), side = (eigen(bounds.upper) - low) / cells;
   const double volume = side.prod();
   Sum sum;
   Matrix second = Matrix::Zero();
@@ -162,10 +162,10 @@ TEST_CASE("shape mass: the body's frame is the centre and the principal axes of 
     take_mass_properties(scene, body);
     const Sum sum = summed(body, shape, 90);
     const Vec3 moments = inertia_of(shape, mass);
-    const Matrix axes = turn_of(body.orientation).toRotationMatrix(), expected = vector_of(moments).asDiagonal(),
+    const Matrix axes = turn_of(body.orientation).toRotationMatrix(), expected = eigen(moments).asDiagonal(),
                  actual = axes.transpose() * sum.inertia * axes * (mass / sum.volume);
     CHECK(mass_properties_of(shape).mass == Approx(sum.volume).epsilon(0.004));
-    CHECK((vector_of(body.position) - sum.center).norm() < 0.002);
+    CHECK((eigen(body.position) - sum.center).norm() < 0.002);
     CHECK((actual - expected).cwiseAbs().maxCoeff() < 0.006 * expected.maxCoeff());
     CHECK_NOTHROW(validate(scene, "taken"));
   }
@@ -185,7 +185,7 @@ TEST_CASE("shape mass: the shape stays where it is in the world")
       CHECK((in_world(after, p) - in_world(before, p)).norm() < 4e-7);
     Body again = after;
     take_mass_properties(scene, again);
-    CHECK((vector_of(again.position) - vector_of(after.position)).norm() < 4e-7);
+    CHECK((eigen(again.position) - eigen(after.position)).norm() < 4e-7);
     CHECK(std::abs(turn_of(again.orientation).dot(turn_of(after.orientation))) > 1 - 1e-12);
   }
 }
@@ -252,7 +252,7 @@ TEST_CASE("shape mass: another frame for a body moves nothing in the world")
     const Quat q = random.orientation();
     const Double3 position{random.uniform(-5, 5), random.uniform(-5, 5), random.uniform(-5, 5)};
     move_frame(after, position, {q[0], q[1], q[2], q[3]});
-    CHECK((vector_of(after.position) - vector_of(position)).norm() < 2e-6);
+    CHECK((eigen(after.position) - eigen(position)).norm() < 2e-6);
     CHECK(turn_of(after.orientation).angularDistance(turn_of(q)) < 1e-6);
     CHECK((in_world(after, {1, 2, 3}) - in_world(before, {1, 2, 3})).norm() < 4e-6);
     CHECK((in_world(after, {0, 0, 0}) - in_world(before, {0, 0, 0})).norm() < 1e-14 * 20);

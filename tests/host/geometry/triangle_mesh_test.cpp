@@ -48,7 +48,7 @@ size_t count(const TriangleMesh &mesh, EdgeKind kind)
       std::count_if(mesh.edges.begin(), mesh.edges.end(), [kind](const MeshEdge &edge) { return edge.kind == kind; }));
 }
 
-std::string refusal(const std::vector<Vec3> &vertices, const std::vector<Triangle> &triangles)
+std::string refusal_of_mesh(const std::vector<Vec3> &vertices, const std::vector<Triangle> &triangles)
 {
   return complaint([&] { triangle_mesh(vertices, triangles, "hall.glb"); });
 }
@@ -161,9 +161,9 @@ TEST_CASE("triangle mesh: triangles without area are left out; those that closed
 TEST_CASE("triangle mesh: thin triangles stay as long as floats give them a normal")
 {
   CHECK(checked_mesh({{0, 0, 0}, {1, 0, 0}, {0.5f, 2e-6f, 0}}, {{0, 1, 2}}).triangles.size() == 1);
-  CHECK_THAT(refusal({{0, 0, 0}, {1, 0, 0}, {0.5f, 5e-7f, 0}}, {{0, 1, 2}}),
+  CHECK_THAT(refusal_of_mesh({{0, 0, 0}, {1, 0, 0}, {0.5f, 5e-7f, 0}}, {{0, 1, 2}}),
              ContainsSubstring("hall.glb: all 1 triangles of the mesh have no area"));
-  CHECK_THAT(refusal({{0, 0, 0}, {1e-12f, 0, 0}, {0, 1e-12f, 0}}, {{0, 1, 2}}),
+  CHECK_THAT(refusal_of_mesh({{0, 0, 0}, {1e-12f, 0, 0}, {0, 1e-12f, 0}}, {{0, 1, 2}}),
              ContainsSubstring("have no area")); /* squared it is no float */
 }
 
@@ -195,7 +195,7 @@ TEST_CASE("triangle mesh: a vertex out of range is refused, whether a triangle t
       vertices.back()[axis] = far;
       for (const std::vector<Triangle> &triangles :
            {std::vector<Triangle>{{0, 2, 1}}, {{0, 2, 1}, {0, 0, 4}}, {{0, 2, 1}, {0, 2, 4}}})
-        CHECK_THAT(refusal(vertices, triangles), ContainsSubstring("hall.glb: vertex 4 is ["));
+        CHECK_THAT(refusal_of_mesh(vertices, triangles), ContainsSubstring("hall.glb: vertex 4 is ["));
     }
   std::vector<Vec3> vertices = square;
   vertices.push_back({1e9f, -1e9f, 1e9f});
@@ -263,12 +263,12 @@ TEST_CASE("triangle mesh: an icosphere is convex at every edge")
 
 TEST_CASE("triangle mesh: what is no mesh is refused by name")
 {
-  CHECK_THAT(refusal(square, {}), ContainsSubstring("hall.glb: a mesh needs at least one triangle"));
-  CHECK_THAT(refusal(square, {{0, 1, 2}, {0, 4, 1}}),
+  CHECK_THAT(refusal_of_mesh(square, {}), ContainsSubstring("hall.glb: a mesh needs at least one triangle"));
+  CHECK_THAT(refusal_of_mesh(square, {{0, 1, 2}, {0, 4, 1}}),
              ContainsSubstring("hall.glb: triangle 1 names vertex 4, but there are 4"));
-  CHECK_THAT(refusal({{0, 0, 0}, {1, std::numeric_limits<float>::quiet_NaN(), 0}, {0, 1, 0}}, {{0, 1, 2}}),
+  CHECK_THAT(refusal_of_mesh({{0, 0, 0}, {1, std::numeric_limits<float>::quiet_NaN(), 0}, {0, 1, 0}}, {{0, 1, 2}}),
              ContainsSubstring("hall.glb: vertex 1 is [1, nan, 0]"));
-  CHECK_THAT(refusal(square, {{0, 0, 1}, {2, 2, 2}}), ContainsSubstring("all 2 triangles"));
+  CHECK_THAT(refusal_of_mesh(square, {{0, 0, 1}, {2, 2, 2}}), ContainsSubstring("all 2 triangles"));
   const std::vector<uint32_t> indices{0, 2, 1, 3};
   CHECK_THAT(complaint([&] { triangle_mesh(square, indices, "hall.glb"); }),
              ContainsSubstring("hall.glb: 4 indices are no whole number of triangles"));

@@ -13,16 +13,16 @@ using Catch::Matchers::ContainsSubstring;
 namespace {
 
 using Points = std::vector<Vec3>;
-using Corners = std::vector<uint16_t>;
+using CornerIndices = std::vector<uint16_t>;
 
 const Points square{{0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {0, 0, 1}};
-const Corners square_triangles{0, 2, 1, 0, 3, 2};
-const Corners open(tip_triangles.begin(), tip_triangles.end() - 3),
+const CornerIndices square_triangles{0, 2, 1, 0, 3, 2};
+const CornerIndices open_tip(tip_triangles.begin(), tip_triangles.end() - 3),
     inside_out(tip_triangles.rbegin(), tip_triangles.rend());
 
-Corners joined(const Corners &first, const Corners &second)
+CornerIndices joined(const CornerIndices &first, const CornerIndices &second)
 {
-  Corners both = first;
+  CornerIndices both = first;
   both.insert(both.end(), second.begin(), second.end());
   return both;
 }
@@ -34,9 +34,9 @@ Points separated()
   for (uint16_t corner : tip_triangles) points.push_back(tip_points[corner]);
   return points;
 }
-Corners counted(size_t n)
+CornerIndices counted(size_t n)
 {
-  Corners corners(n);
+  CornerIndices corners(n);
   for (size_t i = 0; i < n; ++i) corners[i] = uint16_t(i);
   return corners;
 }
@@ -44,7 +44,7 @@ Corners counted(size_t n)
 struct Row {
   const char *what;
   Points points;
-  Corners triangles;
+  CornerIndices triangles;
   bool hull, moves;
   const char *complaint; /* "": none */
   const char *warning;   /* "": none */
@@ -56,14 +56,14 @@ std::vector<Row> rows()
   Points with_nan = tip_points, with_infinity = tip_points;
   with_nan[2][1] = nan;
   with_infinity[3][2] = -infinity;
-  const Corners fin = joined(tip_triangles, {0, 1, 4});
+  const CornerIndices fin = joined(tip_triangles, {0, 1, 4});
   Points with_fin = tip_points;
   with_fin.push_back({1, -1, 1});
   return {
       {"sound", tip_points, tip_triangles, false, true, "", ""},
       {"every corner a vertex", separated(), counted(12), false, true, "", ""},
-      {"open, fixed", tip_points, open, false, false, "", ""},
-      {"open, moves", tip_points, open, false, true, "", "open mesh: 3 boundary edges"},
+      {"open, fixed", tip_points, open_tip, false, false, "", ""},
+      {"open, moves", tip_points, open_tip, false, true, "", "open mesh: 3 boundary edges"},
       {"an edge of three triangles", with_fin, fin, false, true, "", "open mesh: 2 boundary edges"},
       {"an edge of four", tip_points, joined(tip_triangles, {0, 1, 2, 0, 3, 1, 0, 2, 3, 1, 3, 2}), false, false, "",
        ""},
@@ -133,7 +133,7 @@ std::string list_of(const Points &points)
             std::to_string(p[2]) + "]";
   return "[" + text + "]";
 }
-std::string list_of(const Corners &corners)
+std::string list_of(const CornerIndices &corners)
 {
   std::string text;
   for (size_t i = 0; i + 2 < corners.size(); i += 3)

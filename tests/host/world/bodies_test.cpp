@@ -20,8 +20,8 @@ Scene empty_yard(bool half_space = true)
 {
   Scene scene;
   scene.name = "yard";
-  scene.shapes = {half_space ? half_space_shape() : box_shape(50, 1, 50), sphere_shape(0.5f), box_shape(0.5f, 0.5f, 0.5f),
-                  capsule_shape(0.3f, 0.5f)};
+  scene.shapes = {half_space ? half_space_shape() : box_shape(50, 1, 50), sphere_shape(0.5f),
+                  box_shape(0.5f, 0.5f, 0.5f), capsule_shape(0.3f, 0.5f)};
   Body ground;
   ground.type = BodyType::fixed;
   if (!half_space) ground.position = {0, -1, 0};

@@ -13,7 +13,7 @@ using Catch::Matchers::ContainsSubstring;
 namespace {
 
 /* Every kind of body, meshes and compounds too, some of them far apart, above a half-space. */
-Scene dense_cluster(int n, double size, Random &random)
+Scene bodies_above_ground(int n, double size, Random &random)
 {
   Scene scene = empty_scene();
   add_ground(scene);
@@ -50,7 +50,7 @@ std::vector<RayHit> hits_of_body_alone(const Scene &scene, uint32_t body, const 
   return hits;
 }
 
-bool same(const RayHit &a, const RayHit &b)
+bool same_hit(const RayHit &a, const RayHit &b)
 {
   return a.body == b.body && a.fraction == b.fraction && a.point == b.point && a.normal == b.normal;
 }
@@ -60,7 +60,7 @@ bool same(const RayHit &a, const RayHit &b)
 TEST_CASE("rays through everything hit what each body alone is hit by, nearest first")
 {
   Random random(21);
-  const Scene scene = dense_cluster(70, 6, random);
+  const Scene scene = bodies_above_ground(70, 6, random);
   const std::vector<Ray> rays = rays_across(2500, 7, random);
   std::vector<std::vector<RayHit>> expected(rays.size());
   for (uint32_t body = 0; body < scene.bodies.size(); ++body) {
@@ -78,8 +78,8 @@ TEST_CASE("rays through everything hit what each body alone is hit by, nearest f
       return std::pair(a.fraction, a.body) < std::pair(b.fraction, b.body);
     });
     const bool all = through[k].size() == expected[k].size() &&
-                     std::equal(through[k].begin(), through[k].end(), expected[k].begin(), same);
-    const bool first = expected[k].empty() ? nearest[k].body == no_body : same(nearest[k], expected[k].front());
+                     std::equal(through[k].begin(), through[k].end(), expected[k].begin(), same_hit);
+    const bool first = expected[k].empty() ? nearest[k].body == no_body : same_hit(nearest[k], expected[k].front());
     wrong += !all || !first || blocked[k] == expected[k].empty();
     found += expected[k].size();
   }
@@ -191,7 +191,7 @@ TEST_CASE("queries between steps see the new places, under every broadphase, and
     Settings settings;
     settings.broadphase = broadphase;
     Random random(24);
-    const Scene scene = dense_cluster(30, 4, random);
+    const Scene scene = bodies_above_ground(30, 4, random);
     World world(scene, settings), other(scene, settings);
     const std::vector<Ray> rays = rays_across(200, 5, random);
     for (int k = 0; k < 4; ++k) {

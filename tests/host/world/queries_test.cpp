@@ -10,25 +10,13 @@
 #include "host/base/random.h"
 #include "host/geometry/convex_hull.h"
 #include "tests/catch.h"
+#include "tests/physics/physics.h"
 
 using namespace tandem;
+using namespace tandem::physics_tests;
 using Catch::Matchers::ContainsSubstring;
 
 namespace {
-
-using Vector = Eigen::Vector3d;
-
-Vector vector(const Vec3 &v) { return {v[0], v[1], v[2]}; }
-Vector vector(const Point &v) { return {v[0], v[1], v[2]}; }
-Vec3 vec3_of(const Vector &v) { return {float(v.x()), float(v.y()), float(v.z())}; }
-Point point_of(const Vector &v) { return {v.x(), v.y(), v.z()}; }
-Vector direction(Random &random)
-{
-  for (;;) {
-    const Vector v(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
-    if (v.norm() > 0.1 && v.norm() < 1) return v.normalized();
-  }
-}
 
 Scene scene_of(const std::vector<Shape> &shapes)
 {
@@ -79,14 +67,14 @@ struct BodyShape {
   {
     const auto q = [](const Quat &v) { return Eigen::Quaterniond(v[3], v[0], v[1], v[2]).normalized(); };
     axes = (q(b.orientation) * q(b.shape_orientation)).toRotationMatrix();
-    middle = vector(b.position) + q(b.orientation) * vector(b.shape_position);
+    middle = vector_of(b.position) + q(b.orientation) * vector_of(b.shape_position);
   }
   const Shape &shape() const { return scene->shapes[body->shape]; }
 
   /* At most the distance, exact enough that walking by it converges; negative inside. */
   double height(const Vector &point) const
   {
-    const Vector p = axes.transpose() * (point - middle), e = vector(shape().size);
+    const Vector p = axes.transpose() * (point - middle), e = vector_of(shape().size);
     switch (shape().type) {
     case ShapeType::sphere: return p.norm() - e.x();
     case ShapeType::box: return (p.cwiseAbs() - e).maxCoeff();
@@ -248,9 +236,9 @@ TEST_CASE("rays meet each shape where its closed form says")
     REQUIRE((hit.body == 0) == (expected.fraction >= 0));
     if (expected.fraction < 0) continue;
     CHECK(hit.fraction == Approx(expected.fraction).margin(2e-6));
-    CHECK((vector(hit.point) - (expected.origin + expected.fraction * expected.direction)).norm() < 2e-5);
-    if (expected.normal.norm() > 0) CHECK((vector(hit.normal) - expected.normal).norm() < 1e-5);
-    CHECK(vector(hit.normal).norm() == Approx(1).epsilon(1e-6));
+    CHECK((vector_of(hit.point) - (expected.origin + expected.fraction * expected.direction)).norm() < 2e-5);
+    if (expected.normal.norm() > 0) CHECK((vector_of(hit.normal) - expected.normal).norm() < 1e-5);
+    CHECK(vector_of(hit.normal).norm() == Approx(1).epsilon(1e-6));
   }
 }
 
@@ -266,16 +254,16 @@ TEST_CASE("a hundred thousand random rays find what an oracle in double finds")
     const double away = k % 4 == 0 ? 1000 : 9;
     Ray ray = ray_from(away * direction(random), {1, 0, 0});
     ray.direction =
-        vec3_of(Vector(5 * direction(random) * random.uniform(0, 1) - vector(ray.origin)) * random.uniform(0.1, 3));
-    ray.reach = float((away + 50) / vector(ray.direction).norm());
+        vec3_of(Vector(5 * direction(random) * random.uniform(0, 1) - vector_of(ray.origin)) * random.uniform(0.1, 3));
+    ray.reach = float((away + 50) / vector_of(ray.direction).norm());
     rays.push_back(ray);
   }
   const std::vector<RayHit> hits = world.cast_rays(rays);
   size_t wrong = 0, found = 0, grazing = 0, checked = 0;
   double largest = 0, tilted = 0;
   for (size_t k = 0; k < rays.size(); ++k) {
-    const Vector origin = vector(rays[k].origin), unit = vector(rays[k].direction).normalized();
-    const double length = vector(rays[k].direction).norm(), rounding = 1e-6 * (origin.norm() + 10);
+    const Vector origin = vector_of(rays[k].origin), unit = vector_of(rays[k].direction).normalized();
+    const double length = vector_of(rays[k].direction).norm(), rounding = 1e-6 * (origin.norm() + 10);
     double nearest = 1e300, doubt = 1e300;
     uint32_t body = no_body;
     for (uint32_t b = 0; b < body_shapes.size(); ++b) {
@@ -296,11 +284,11 @@ TEST_CASE("a hundred thousand random rays find what an oracle in double finds")
     }
     if (body == no_body) continue;
     ++found;
-    const double slope = nearest > 0 ? std::abs(unit.dot(vector(hit.normal))) : 1;
+    const double slope = nearest > 0 ? std::abs(unit.dot(vector_of(hit.normal))) : 1;
     largest = std::max(largest, std::abs(double{hit.fraction} * length - nearest) * slope / (origin.norm() + 10));
     if (nearest > 0)
-      tilted =
-          std::max(tilted, body_shapes[body].height(vector(hit.point) + 1e-3 * vector(hit.normal)) < 0 ? 1.0 : 0.0);
+      tilted = std::max(tilted,
+                        body_shapes[body].height(vector_of(hit.point) + 1e-3 * vector_of(hit.normal)) < 0 ? 1.0 : 0.0);
   }
   CAPTURE(found, wrong, grazing, largest, checked);
   CHECK(wrong == 0);
@@ -437,9 +425,9 @@ TEST_CASE("shape casts stop where shapes touch: closed forms")
     if (cast.fraction < 0) continue;
     CHECK(hit.fraction <= cast.fraction + 1e-6);
     CHECK(hit.fraction == Approx(cast.fraction).margin(2e-5));
-    CHECK((vector(hit.point) - cast.point).norm() <
+    CHECK((vector_of(hit.point) - cast.point).norm() <
           2e-3); /* of a corner on a sphere: the root of the touching distance */
-    CHECK((vector(hit.normal) - cast.normal).norm() < 1e-3);
+    CHECK((vector_of(hit.normal) - cast.normal).norm() < 1e-3);
   }
 }
 
@@ -473,7 +461,8 @@ TEST_CASE("a swept sphere stops where the distance in double is its radius")
     const auto clearance = [&](double fraction) {
       double least = 1e300;
       for (const BodyShape &body_shape : body_shapes)
-        least = std::min(least, body_shape.height(vector(poses[k].position) + fraction * vector(paths[k])) - radius);
+        least =
+            std::min(least, body_shape.height(vector_of(poses[k].position) + fraction * vector_of(paths[k])) - radius);
       return least;
     };
     if (clearance(0) < 0) {

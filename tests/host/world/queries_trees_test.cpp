@@ -10,7 +10,7 @@ using namespace tandem::physics_tests;
 
 namespace {
 
-Shape hills(Random &random)
+Shape wide_hills(Random &random)
 {
   std::vector<float> heights;
   for (int i = 0; i < 24 * 20; ++i) heights.push_back(float(random.uniform(-0.3, 0.3)));
@@ -31,9 +31,9 @@ Scene meadow()
 {
   Random random(12);
   Scene scene = empty_scene();
-  add_body(scene, BodyType::fixed, hills(random), {1, -2, 0.5}).orientation = random.orientation();
+  add_body(scene, BodyType::fixed, wide_hills(random), {1, -2, 0.5}).orientation = random.orientation();
   add_body(scene, BodyType::fixed,
-           compound_shape({child_of(hills(random), random), child_of(sphere_shape(0.4f), random)}), {0, 2, 0})
+           compound_shape({child_of(wide_hills(random), random), child_of(sphere_shape(0.4f), random)}), {0, 2, 0})
       .orientation = random.orientation();
   for (int k = 0; k < 8; ++k)
     add_body(scene, BodyType::fixed,

@@ -6,6 +6,7 @@
 #include "shared/records.h"
 #include "tests/catch.h"
 #include "tests/parity/parity.h"
+#include "tests/shared/words.h"
 
 using namespace tandem;
 
@@ -33,19 +34,19 @@ Graph random_graph(uint32_t bodies, uint32_t constraints, bool hub, uint64_t see
   return graph;
 }
 
-struct Lists {
+struct ConstraintLists {
   std::vector<uint32_t> starts, entries;
-  bool operator==(const Lists &) const = default;
+  bool operator==(const ConstraintLists &) const = default;
 };
 
-Lists by_hand(const Graph &graph, uint32_t first)
+ConstraintLists constraints_by_hand(const Graph &graph, uint32_t first)
 {
   std::vector<std::vector<uint32_t>> lists(graph.bodies);
   for (uint32_t i = first; i < graph.a.size(); ++i)
     for (uint32_t side : {0u, 1u})
       if (const uint32_t body = side ? graph.b[i] : graph.a[i]; graph.flags[body] >> 3 == uint32_t(BODY_TYPE_DYNAMIC))
         lists[body].push_back(2 * i + side);
-  Lists result;
+  ConstraintLists result;
   for (const std::vector<uint32_t> &list : lists) {
     result.starts.push_back(uint32_t(result.entries.size()));
     result.entries.insert(result.entries.end(), list.begin(), list.end());
@@ -54,13 +55,7 @@ Lists by_hand(const Graph &graph, uint32_t first)
   return result;
 }
 
-void set(Memory &memory, Buffer buffer, const std::vector<uint32_t> &values)
-{
-  memory.resize(buffer, std::max<size_t>(values.size(), 1) * sizeof(uint32_t));
-  memory.upload(buffer, values.data(), values.size() * sizeof(uint32_t));
-}
-
-Lists on_backend(const std::string &name, const Graph &graph, uint32_t first_color)
+ConstraintLists constraints_on_backend(const std::string &name, const Graph &graph, uint32_t first_color)
 {
   const auto constraints = uint32_t(graph.a.size());
   StepPlan plan;
@@ -91,14 +86,14 @@ Lists on_backend(const std::string &name, const Graph &graph, uint32_t first_col
        {Buffer::body_constraint, Buffer::body_constraint_other, Buffer::body_constraint_key,
         Buffer::body_constraint_key_other, Buffer::body_constraint_start, Buffer::sort_histogram, Buffer::scan_sums})
     memory.resize(buffer, bytes_of(buffer, sizes));
-  set(memory, Buffer::counts, {plan.known.begin(), plan.known.end()});
-  set(memory, Buffer::constraint_a, graph.a);
-  set(memory, Buffer::constraint_b, graph.b);
-  set(memory, Buffer::body_flags, graph.flags);
+  set_words(memory, Buffer::counts, {plan.known.begin(), plan.known.end()});
+  set_words(memory, Buffer::constraint_a, graph.a);
+  set_words(memory, Buffer::constraint_b, graph.b);
+  set_words(memory, Buffer::body_flags, graph.flags);
 
   DirectLauncher launcher(memory, *backend);
   list_body_constraints(launcher, plan, first_color);
-  Lists lists;
+  ConstraintLists lists;
   lists.starts = memory.read<uint32_t>(Buffer::body_constraint_start, graph.bodies + 1);
   lists.entries = memory.read<uint32_t>(Buffer::body_constraint, lists.starts.back());
   backend->finish();
@@ -113,11 +108,11 @@ TEST_CASE("every moving body lists its constraints in order", "[sanitizer]")
       GENERATE(random_graph(5, 0, false, 1), random_graph(10, 1, false, 2), random_graph(200, 700, false, 3),
                random_graph(3000, 9000, true, 4), random_graph(70000, 9000, false, 5));
   const uint32_t first_color = GENERATE(0u, COLOR_OVERFLOW);
-  const Lists expected = by_hand(graph, first_color == 0 ? 0 : graph.overflow);
+  const ConstraintLists expected = constraints_by_hand(graph, first_color == 0 ? 0 : graph.overflow);
   CAPTURE(graph.bodies, graph.a.size(), first_color);
   for (const char *name : {"serial", "serial:order=backward", "serial:order=shuffled", "tbb:threads=7"}) {
     CAPTURE(name);
-    CHECK((on_backend(name, graph, first_color) == expected));
+    CHECK((constraints_on_backend(name, graph, first_color) == expected));
   }
 }
 
@@ -126,6 +121,7 @@ TEST_CASE("bodies list the same constraints on OpenCL")
   parity::require_pocl();
   for (const uint32_t first_color : {0u, COLOR_OVERFLOW}) {
     const Graph graph = random_graph(3000, 9000, true, 4);
-    CHECK((on_backend("cl:pocl", graph, first_color) == by_hand(graph, first_color == 0 ? 0 : graph.overflow)));
+    CHECK((constraints_on_backend("cl:pocl", graph, first_color) ==
+           constraints_by_hand(graph, first_color == 0 ? 0 : graph.overflow)));
   }
 }

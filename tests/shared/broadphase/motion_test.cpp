@@ -97,28 +97,45 @@ BodyPairs pairs_of(const RandomBoxes &boxes)
   return pairs;
 }
 
+/* The boxes of a motion, and the oracle's pairs in each step: they take long, and are the same for every broadphase. */
+struct Motion {
+  Motion(uint32_t boxes, double speed_in_step, double grain_of_places, uint32_t steps)
+      : n(boxes), speed(speed_in_step), grain(grain_of_places)
+  {
+    MovingBoxes moving = start();
+    for (uint32_t step = 0; step < steps; ++step) {
+      pairs.push_back(pairs_of(moving.boxes));
+      moving.move(step);
+    }
+  }
+  MovingBoxes start() const { return {n, speed, grain, 17}; }
+
+  uint32_t n;
+  double speed, grain;
+  std::vector<BodyPairs> pairs; /* of each step */
+};
+
 /* Steps of motion, all of whose pairs are as they should be; many come and go on the way. */
-void check_motion(BroadphaseRunner &runner, Broadphase broadphase, uint32_t n, double speed, double grain,
-                  uint32_t steps)
+void check_motion(BroadphaseRunner &runner, Broadphase broadphase, const Motion &motion)
 {
-  MovingBoxes moving(n, speed, grain, 17);
+  MovingBoxes moving = motion.start();
   runner.take(moving.boxes);
   BodyPairs before;
   size_t came = 0;
-  for (uint32_t step = 0; step < steps; ++step) {
-    CAPTURE(broadphase, runner.name(), n, speed, grain, step);
+  for (uint32_t step = 0; step < motion.pairs.size(); ++step) {
+    CAPTURE(broadphase, runner.name(), motion.n, motion.speed, motion.grain, step);
     runner.move_to(moving.boxes, moving.velocities());
     if (step % 7 == 3) runner.make_query_hierarchy();
     BodyPairs found = runner.find(row_of(broadphase));
     if (step % 5 == 2) found = runner.find(row_of(broadphase));
-    REQUIRE(found == pairs_of(moving.boxes));
+    REQUIRE(found == motion.pairs[step]);
     came += static_cast<size_t>(std::count_if(found.begin(), found.end(), [&](const auto &pair) {
       return !std::binary_search(before.begin(), before.end(), pair);
     }));
     before = found;
     moving.move(step);
   }
-  if (n > 100) CHECK(came > before.size() + 100);
+  if (motion.n > 100) CHECK(came > before.size() + 100);
 }
 
 constexpr Broadphase keeping[] = {Broadphase::sap3, Broadphase::trees, Broadphase::bvh, Broadphase::bvh_history};
@@ -129,26 +146,26 @@ TEST_CASE("broadphases that keep something are right in each of two hundred step
 {
   const char *backend = GENERATE("serial", "serial:order=backward", "tbb:threads=3");
   BroadphaseRunner runner(make_backend(backend));
-  for (const Broadphase broadphase : keeping)
-    for (const double speed : {0.01, 0.4}) {
-      for (const uint32_t n : {1u, 2u, 40u}) check_motion(runner, broadphase, n, speed, 0, 60);
-      check_motion(runner, broadphase, 500, speed, 0, 200);
-      check_motion(runner, broadphase, 300, speed, 0.25, 200);
-    }
+  for (const double speed : {0.01, 0.4}) {
+    const Motion motions[] = {
+        {1, speed, 0, 60}, {2, speed, 0, 60}, {40, speed, 0, 60}, {500, speed, 0, 200}, {300, speed, 0.25, 200}};
+    for (const Broadphase broadphase : keeping)
+      for (const Motion &motion : motions) check_motion(runner, broadphase, motion);
+  }
 }
 
 TEST_CASE("broadphases that keep something are right among many", "[motion]")
 {
   BroadphaseRunner runner(make_backend("tbb"));
-  for (const Broadphase broadphase : keeping) check_motion(runner, broadphase, 20000, 0.02, 0, 40);
+  const Motion motion(20000, 0.02, 0, 40);
+  for (const Broadphase broadphase : keeping) check_motion(runner, broadphase, motion);
 }
 
 TEST_CASE("broadphases on OpenCL that keep something are right in each step of motion", "[motion]")
 {
   parity::require_pocl();
   BroadphaseRunner runner(make_backend("cl:pocl"));
-  for (const Broadphase broadphase : keeping) {
-    check_motion(runner, broadphase, 2, 0.1, 0, 20);
-    check_motion(runner, broadphase, 400, 0.1, 0, 200);
-  }
+  const Motion motions[] = {{2, 0.1, 0, 20}, {400, 0.1, 0, 200}};
+  for (const Broadphase broadphase : keeping)
+    for (const Motion &motion : motions) check_motion(runner, broadphase, motion);
 }

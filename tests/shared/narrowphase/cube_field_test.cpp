@@ -7,7 +7,7 @@ using namespace tandem::convex_tests;
 
 namespace {
 
-constexpr float slop = 0.005f;
+constexpr float contact_slop = 0.005f;
 
 Shape box(const Vector &extent, const Vector &middle)
 {
@@ -26,7 +26,7 @@ struct Manifold {
 Manifold manifold_of(const Shape &a, const Shape &b, double reach, uint_lanes method)
 {
   const convex record_a = a.record(), record_b = b.record();
-  const manifold m = convex_contact(&record_a, &record_b, real(reach), slop, method);
+  const manifold m = convex_contact(&record_a, &record_b, real(reach), contact_slop, method);
   Manifold result{to_vector(m.normal), {}, 1e300};
   for (int slot = 0; slot < 4; ++slot) {
     if (!m.kept[slot]) continue;

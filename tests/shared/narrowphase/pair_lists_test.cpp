@@ -15,6 +15,7 @@
 #include "shared/pair_kinds.h"
 #include "tests/catch.h"
 #include "tests/parity/parity.h"
+#include "tests/shared/words.h"
 
 using namespace tandem;
 
@@ -38,9 +39,9 @@ Pairs random_pairs(uint32_t count, const std::vector<uint32_t> &shapes, uint64_t
   return pairs;
 }
 
-struct Lists {
+struct PairLists {
   std::vector<uint32_t> starts, pairs;
-  bool operator==(const Lists &) const = default;
+  bool operator==(const PairLists &) const = default;
 };
 
 /* The kind according to the drawing in pairs.def, not to its rows. */
@@ -54,9 +55,9 @@ uint32_t kind_by_hand(uint32_t a, uint32_t b)
   return b == SHAPE_SPHERE ? PAIR_KIND_SPHERE_SPHERE : a == SHAPE_BOX ? PAIR_KIND_BOX_BOX : PAIR_KIND_SPHERE_BOX;
 }
 
-Lists by_hand(const Pairs &pairs)
+PairLists pairs_by_hand(const Pairs &pairs)
 {
-  Lists lists;
+  PairLists lists;
   for (uint32_t kind = 0; kind <= PAIR_KIND_NONE; ++kind) {
     lists.starts.push_back(static_cast<uint32_t>(lists.pairs.size()));
     for (uint32_t pair = 0; pair < pairs.a.size(); ++pair)
@@ -66,13 +67,7 @@ Lists by_hand(const Pairs &pairs)
   return lists;
 }
 
-void set(Memory &memory, Buffer buffer, const std::vector<uint32_t> &values)
-{
-  memory.resize(buffer, std::max<size_t>(values.size(), 1) * sizeof(uint32_t));
-  memory.upload(buffer, values.data(), values.size() * sizeof(uint32_t));
-}
-
-Lists on_backend(const std::string &name, const Pairs &pairs)
+PairLists pairs_on_backend(const std::string &name, const Pairs &pairs)
 {
   const auto count = static_cast<uint32_t>(pairs.a.size()), capacity = count + 5;
   const std::unique_ptr<Backend> backend = make_backend(name);
@@ -93,13 +88,13 @@ Lists on_backend(const std::string &name, const Pairs &pairs)
   std::vector<uint32_t> counts(COUNT_TOTAL);
   counts[COUNT_ONE] = 1;
   counts[COUNT_PAIRS] = count;
-  set(memory, Buffer::counts, counts);
-  set(memory, Buffer::pair_a, pairs.a);
-  set(memory, Buffer::pair_b, pairs.b);
-  set(memory, Buffer::body_flags, pairs.flags);
+  set_words(memory, Buffer::counts, counts);
+  set_words(memory, Buffer::pair_a, pairs.a);
+  set_words(memory, Buffer::pair_b, pairs.b);
+  set_words(memory, Buffer::body_flags, pairs.flags);
   DirectLauncher launcher(memory, *backend);
   list_pairs(launcher, capacity);
-  Lists lists;
+  PairLists lists;
   lists.starts = memory.read<uint32_t>(Buffer::counts, PAIR_KIND_NONE + 1, KIND_START);
   lists.pairs = memory.read<uint32_t>(Buffer::pair_of_kind, count);
   backend->finish();
@@ -143,12 +138,12 @@ TEST_CASE("pair lists: each pair once, in the list of its kind, in order", "[san
   for (const std::vector<uint32_t> &some :
        std::vector<std::vector<uint32_t>>{all, {SHAPE_BOX}, {SHAPE_BOX, SHAPE_OTHER}, {SHAPE_HALF_SPACE}}) {
     const Pairs pairs = random_pairs(count, some, count + some.size());
-    const Lists expected = by_hand(pairs);
+    const PairLists expected = pairs_by_hand(pairs);
     REQUIRE(expected.pairs.size() == count);
     CAPTURE(count, some.size());
     for (const char *name : {"serial", "serial:order=backward", "serial:order=shuffled", "tbb:threads=7"}) {
       CAPTURE(name);
-      CHECK((on_backend(name, pairs) == expected));
+      CHECK((pairs_on_backend(name, pairs) == expected));
     }
   }
 }
@@ -158,7 +153,7 @@ TEST_CASE("pair lists: the same on OpenCL")
   parity::require_pocl();
   for (const uint32_t count : {0u, 1u, TILE, 3 * TILE + 7}) {
     const Pairs pairs = random_pairs(count, {SHAPE_SPHERE, SHAPE_BOX, SHAPE_HALF_SPACE, SHAPE_OTHER}, count);
-    CHECK((on_backend("cl:pocl", pairs) == by_hand(pairs)));
+    CHECK((pairs_on_backend("cl:pocl", pairs) == pairs_by_hand(pairs)));
   }
 }
 
@@ -182,9 +177,9 @@ TEST_CASE("pair lists: those of a step hold the pairs of the step", "[sanitizer]
   const uint32_t count = memory.read<uint32_t>(Buffer::counts, 1, COUNT_PAIRS).at(0);
   const Pairs pairs{memory.read<uint32_t>(Buffer::pair_a, count), memory.read<uint32_t>(Buffer::pair_b, count),
                     memory.read<uint32_t>(Buffer::body_flags, world.scene().bodies.size())};
-  const Lists lists{memory.read<uint32_t>(Buffer::counts, PAIR_KIND_NONE + 1, KIND_START),
-                    memory.read<uint32_t>(Buffer::pair_of_kind, count)};
-  CHECK((lists == by_hand(pairs)));
+  const PairLists lists{memory.read<uint32_t>(Buffer::counts, PAIR_KIND_NONE + 1, KIND_START),
+                        memory.read<uint32_t>(Buffer::pair_of_kind, count)};
+  CHECK((lists == pairs_by_hand(pairs)));
   CHECK(count > 40);
 }
 

@@ -18,7 +18,7 @@ std::vector<Kernel> followed(std::vector<Kernel> kernels)
 }
 const std::vector<Kernel> narrowphase_kernels = followed(lane_kernels);
 
-TestBody random_body(Random &random, bool may_be_half_space)
+TestBody random_body_of_any_shape(Random &random, bool may_be_half_space)
 {
   TestBody body;
   body.shape = Shape(random.below(may_be_half_space ? 3 : 2));
@@ -36,7 +36,7 @@ PairScene mixed_pairs()
   Random random(11);
   PairScene scene;
   while (scene.size() < 20000) {
-    TestBody a = random_body(random, true), b = random_body(random, a.shape != half_space);
+    TestBody a = random_body_of_any_shape(random, true), b = random_body_of_any_shape(random, a.shape != half_space);
     if (random.below(16) == 0) b.position = a.position;
     if (random.below(16) == 0) b.orientation = a.orientation;
     scene.add(a, b);

@@ -15,7 +15,7 @@ using namespace command_line;
 
 namespace {
 
-const std::string tiny = "box-grid:nx=1,ny=1,nz=1";
+const std::string one_box = "box-grid:nx=1,ny=1,nz=1";
 
 std::string repeated(const std::string &text, int times)
 {
@@ -131,8 +131,8 @@ TEST_CASE("hostile options: an empty value is no value", "[command]")
   const Scratch scratch;
   for (const char *option :
        {"json", "save", "image", "events", "trace", "place", "substeps", "iterations", "steps", "solver"})
-    check_refused("run " + tiny + " --" + option + " ''", std::string("--") + option);
-  check_refused("diff " + tiny + " --between serial,tbb --steps 2 --plant ''", "--plant '': a value is needed");
+    check_refused("run " + one_box + " --" + option + " ''", std::string("--") + option);
+  check_refused("diff " + one_box + " --between serial,tbb --steps 2 --plant ''", "--plant '': a value is needed");
   check_refused("stability --quick --only flip --out " + scratch.file("results") + " --table-in ''", "--table-in");
 }
 
@@ -143,12 +143,12 @@ TEST_CASE("hostile files: no output goes where the command prints", "[command]")
   for (const char *option : {"events", "trace", "save", "image"}) {
     for (const std::string &place : {printed, std::string("/dev/stdout")})
       for (const char *json : {"", " --json -"})
-        check_refused("run " + tiny + " --steps 1 --on serial --" + option + " " + place + json + into,
+        check_refused("run " + one_box + " --steps 1 --on serial --" + option + " " + place + json + into,
                       "this is standard output");
     CHECK(contents(printed).empty());
-    check_refused("run " + tiny + " --steps 1 --on serial --" + option + " -", "a file is needed");
+    check_refused("run " + one_box + " --steps 1 --on serial --" + option + " -", "a file is needed");
   }
-  CHECK(command("run " + tiny + " --steps 1 --on serial --events /dev/null > /dev/null").status == 0);
+  CHECK(command("run " + one_box + " --steps 1 --on serial --events /dev/null > /dev/null").status == 0);
 }
 
 TEST_CASE("hostile files: what a scene names lies below its folder", "[command]")
@@ -284,14 +284,14 @@ TEST_CASE("hostile files: an output that cannot be written is one line and statu
 {
   const Scratch scratch;
   const std::pair<const char *, std::string> outputs[] = {
-      {"full.json", "run " + tiny + " --steps 2 --json "},
-      {"full.png", "run " + tiny + " --steps 2 --image-size 8x8 --image "},
-      {"full.glb", "run " + tiny + " --steps 2 --save "},
-      {"full.trace", "run " + tiny + " --steps 2 --trace "},
-      {"full.events", "run " + tiny + " --steps 2 --events "},
+      {"full.json", "run " + one_box + " --steps 2 --json "},
+      {"full.png", "run " + one_box + " --steps 2 --image-size 8x8 --image "},
+      {"full.glb", "run " + one_box + " --steps 2 --save "},
+      {"full.trace", "run " + one_box + " --steps 2 --trace "},
+      {"full.events", "run " + one_box + " --steps 2 --events "},
       {"full.svg", "bench broadphase --n 8 --broadphase grid --on serial --chart "},
       {"scenes.json", "scenes --json "},
-      {"diff.json", "diff " + tiny + " --steps 1 --json "}};
+      {"diff.json", "diff " + one_box + " --steps 1 --json "}};
   for (const auto &[name, arguments] : outputs) {
     files::create_symlink("/dev/full", scratch.file(name));
     const Result result = command(arguments + scratch.file(name));
@@ -329,8 +329,8 @@ TEST_CASE("hostile files: each file of a folder of results is checked", "[comman
 TEST_CASE("hostile files: what was printed is written, or the status says so", "[command]")
 {
   for (const std::string &arguments :
-       std::vector<std::string>{"scenes", "--help", "--version", "devices", "run " + tiny + " --steps 1",
-                                "run " + tiny + " --steps 1 --json -", "plan " + tiny, "stability --list"}) {
+       std::vector<std::string>{"scenes", "--help", "--version", "devices", "run " + one_box + " --steps 1",
+                                "run " + one_box + " --steps 1 --json -", "plan " + one_box, "stability --list"}) {
     for (const auto &[output, why] :
          {std::pair(" >/dev/full", "No space left on device"), std::pair(" >&-", "Bad file descriptor")}) {
       const Result result = command(arguments + output, "OCL_ICD_VENDORS=/nonexistent/");
@@ -339,7 +339,7 @@ TEST_CASE("hostile files: what was printed is written, or the status says so", "
       CHECK(result.error == std::string("tandem: standard output: cannot write: ") + why + "\n");
     }
   }
-  CHECK(command("run " + tiny + " --steps 1 --json /dev/stdout >/dev/full").error ==
+  CHECK(command("run " + one_box + " --steps 1 --json /dev/stdout >/dev/full").error ==
         "tandem: --json /dev/stdout: cannot write: No space left on device\n");
 }
 
@@ -351,10 +351,11 @@ TEST_CASE("hostile files: a file is replaced whole, with its mode, through links
   REQUIRE(chmod(scratch.file("real.json").c_str(), 0640) == 0);
   files::create_symlink("real.json", scratch.file("link.json"));
   check_refused("run castle --json " + scratch.file("kept.json"), "castle");
-  CHECK(command("run " + tiny + " --steps 1 --trace " + scratch.file("kept.json") + " --json /dev/full").status == 2);
-  CHECK(
-      command("run " + tiny + " --steps 1 --save " + scratch.file("kept.glb") + " --json " + scratch.file("link.json"))
-          .status == 0);
+  CHECK(command("run " + one_box + " --steps 1 --trace " + scratch.file("kept.json") + " --json /dev/full").status ==
+        2);
+  CHECK(command("run " + one_box + " --steps 1 --save " + scratch.file("kept.glb") + " --json " +
+                scratch.file("link.json"))
+            .status == 0);
   CHECK(contents(scratch.file("kept.glb.frames")) == "kept");
   CHECK(files::is_symlink(scratch.file("link.json")));
   CHECK(Json::parse(contents(scratch.file("real.json")))["steps"] == 1);
@@ -370,15 +371,15 @@ TEST_CASE("hostile files: a pipe takes what is written to it", "[command]")
   const Scratch scratch;
   const std::string pipe = scratch.file("pipe.glb");
   REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
-  check_refused("run " + tiny + " --steps 2 --save " + pipe, "cannot write"); /* nobody reads */
+  check_refused("run " + one_box + " --steps 2 --save " + pipe, "cannot write"); /* nobody reads */
   const int reader = open(pipe.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
-  CHECK(command("run " + tiny + " --steps 2 --save " + pipe).status == 0);
+  CHECK(command("run " + one_box + " --steps 2 --save " + pipe).status == 0);
   std::string copy(1 << 16, '\0'); /* as much as a pipe holds while nobody reads */
   const ssize_t size = read(reader, copy.data(), copy.size());
   close(reader);
   REQUIRE(size > 0);
   copy.resize(static_cast<size_t>(size));
-  CHECK(command("run " + tiny + " --steps 2 --save " + scratch.file("plain.glb")).status == 0);
+  CHECK(command("run " + one_box + " --steps 2 --save " + scratch.file("plain.glb")).status == 0);
   CHECK(copy == contents(scratch.file("plain.glb")));
   CHECK(files::is_fifo(pipe));
 }
@@ -465,7 +466,7 @@ TEST_CASE("diff decides auto once for all backends, and says so", "[command]")
   CHECK(equal["broadphase"] == "trees");
   CHECK(equal["broadphase_why"].get<std::string>().find("181 bodies on a CPU") == 0);
   CHECK(command(scene + "serial,tbb").out.find("Broadphase on all of them: trees (181 bodies on a CPU") == 0);
-  CHECK(json_of("diff " + tiny + " --steps 1")["broadphase"] == "grid");
+  CHECK(json_of("diff " + one_box + " --steps 1")["broadphase"] == "grid");
   const Json devices = json_of("devices");
   for (const Json &device : devices["backends"])
     if (device["kind"] == "opencl" &&

@@ -26,7 +26,7 @@ using command_line::Scratch;
 using command_line::shell;
 namespace files = std::filesystem;
 
-void check_refused(const std::string &arguments, const std::string &mentions)
+void check_report_refused(const std::string &arguments, const std::string &mentions)
 {
   command_line::check_refused("report " + arguments, mentions);
 }
@@ -95,7 +95,7 @@ std::string page_in_browser(const std::string &query)
       .out;
 }
 
-size_t count_of(const std::string &text, const std::string &part)
+size_t occurrences(const std::string &text, const std::string &part)
 {
   size_t count = 0;
   for (size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
@@ -198,18 +198,18 @@ TEST_CASE("report: bad input is one line and status 2", "[report][command]")
 {
   const Scratch folder;
   const std::string out = " --out '" + folder.path.string() + "'";
-  check_refused("--quick", "--out");
-  check_refused("--scenes castle" + out, "castle");
-  check_refused("--scenes pyramid,," + out, "--scenes");
-  check_refused("--solvers magic" + out, "magic");
-  check_refused("--metric beauty" + out, "beauty");
-  check_refused("--on gpu" + out, "gpu");
-  check_refused("--parts scenes,fun" + out, "fun");
-  check_refused("--quick --scenes box-grid-large" + out, "box-grid-large");
-  check_refused("--problems missing.dat" + out, "missing.dat");
-  check_refused("--quick --out /proc/nowhere/report", "/proc/nowhere/report");
+  check_report_refused("--quick", "--out");
+  check_report_refused("--scenes castle" + out, "castle");
+  check_report_refused("--scenes pyramid,," + out, "--scenes");
+  check_report_refused("--solvers magic" + out, "magic");
+  check_report_refused("--metric beauty" + out, "beauty");
+  check_report_refused("--on gpu" + out, "gpu");
+  check_report_refused("--parts scenes,fun" + out, "fun");
+  check_report_refused("--quick --scenes box-grid-large" + out, "box-grid-large");
+  check_report_refused("--problems missing.dat" + out, "missing.dat");
+  check_report_refused("--quick --out /proc/nowhere/report", "/proc/nowhere/report");
   std::ofstream(folder.path / "file") << "taken";
-  check_refused("--quick --out '" + folder.file("file") + "'", "file");
+  check_report_refused("--quick --out '" + folder.file("file") + "'", "file");
   CHECK(files::is_empty(folder.path) == false);
   CHECK_FALSE(files::exists(folder.path / "report.html"));
 }
@@ -406,12 +406,12 @@ TEST_CASE("report: the page stands alone and shows charts and tables in a browse
   if (browser().empty()) tests::skip("no Chromium: the page was not looked at");
   const std::string dom = page_in_browser("?sort=2.5&sort=4.5&sort=4.5");
   const size_t runs = 2 * settings_grid("soft-step", Grid::quick).size(); /* of a scene, on two backends */
-  CHECK(count_of(dom, "<svg") == 5); /* two scenes on two backends, a contact problem */
-  CHECK(count_of(dom, "ms per step at equal error") == 2);
-  CHECK(count_of(dom, "<g class=\"point") > 2 * runs);
-  CHECK(count_of(dom, "<table") >= 6);
-  CHECK(count_of(dom, "aria-sort=\"ascending\"") == 1);
-  CHECK(count_of(dom, "aria-sort=\"descending\"") == 1);
+  CHECK(occurrences(dom, "<svg") == 5); /* two scenes on two backends, a contact problem */
+  CHECK(occurrences(dom, "ms per step at equal error") == 2);
+  CHECK(occurrences(dom, "<g class=\"point") > 2 * runs);
+  CHECK(occurrences(dom, "<table") >= 6);
+  CHECK(occurrences(dom, "aria-sort=\"ascending\"") == 1);
+  CHECK(occurrences(dom, "aria-sort=\"descending\"") == 1);
   const std::vector<double> up = column_of(dom, 2, 5), down = column_of(dom, 4, 5);
   REQUIRE(up.size() == runs);
   REQUIRE(down.size() == up.size());

@@ -22,9 +22,9 @@ using Catch::Matchers::ContainsSubstring;
 
 namespace {
 
-const std::string scenes = std::string(TANDEM_SOURCE_DIR) + "/tests/scenes/";
+const std::string json_scenes = std::string(TANDEM_SOURCE_DIR) + "/tests/scenes/";
 
-std::string complaint(const std::string &text)
+std::string scene_fault(const std::string &text)
 {
   try {
     parse_scene_json(text, "pile.json");
@@ -189,7 +189,7 @@ TEST_CASE("a written scene reads back to the same bits")
 
 TEST_CASE("a file written by hand is read")
 {
-  Scene scene = load_scene(scenes + "three_bodies.json");
+  Scene scene = load_scene(json_scenes + "three_bodies.json");
   CHECK(scene.name == "three bodies");
   CHECK(scene.gravity == Vec3{0, -9.81f, 0});
   REQUIRE(scene.bodies.size() == 3);
@@ -206,59 +206,61 @@ TEST_CASE("a file written by hand is read")
 
 TEST_CASE("malformed JSON: file, line and column")
 {
-  CHECK_THAT(complaint("{\n  \"tandem_scene\": 1,\n  \"name\": oops\n}"),
+  CHECK_THAT(scene_fault("{\n  \"tandem_scene\": 1,\n  \"name\": oops\n}"),
              ContainsSubstring("pile.json:3:11: malformed JSON: "));
-  CHECK_THAT(complaint(""), ContainsSubstring("pile.json:1:1: malformed JSON"));
-  CHECK_THAT(complaint("{\n  \"gravity\": [0, 1e400, 0]\n}"),
+  CHECK_THAT(scene_fault(""), ContainsSubstring("pile.json:1:1: malformed JSON"));
+  CHECK_THAT(scene_fault("{\n  \"gravity\": [0, 1e400, 0]\n}"),
              ContainsSubstring("pile.json:2:22: malformed JSON: ") && ContainsSubstring("1e400"));
-  CHECK_THAT(complaint("{\"tandem_scene\": 1"), ContainsSubstring("pile.json:1:19: malformed JSON"));
-  CHECK_THAT(complaint("{\"a\": 1e999}"), ContainsSubstring("malformed JSON"));
-  CHECK_THAT(complaint(with_body(R"("mass": NaN)")), ContainsSubstring("malformed JSON"));
-  CHECK_THAT(complaint(std::string(50, '[')), ContainsSubstring("malformed JSON"));
-  CHECK_THAT(complaint(with_body(R"("mass": 1, "mass": 2)")),
+  CHECK_THAT(scene_fault("{\"tandem_scene\": 1"), ContainsSubstring("pile.json:1:19: malformed JSON"));
+  CHECK_THAT(scene_fault("{\"a\": 1e999}"), ContainsSubstring("malformed JSON"));
+  CHECK_THAT(scene_fault(with_body(R"("mass": NaN)")), ContainsSubstring("malformed JSON"));
+  CHECK_THAT(scene_fault(std::string(50, '[')), ContainsSubstring("malformed JSON"));
+  CHECK_THAT(scene_fault(with_body(R"("mass": 1, "mass": 2)")),
              ContainsSubstring("pile.json: the key \"mass\" stands twice"));
 }
 
 TEST_CASE("unknown keys and wrong types are refused with their place")
 {
-  CHECK_THAT(complaint(with_body(R"("mas": 1)")),
+  CHECK_THAT(scene_fault(with_body(R"("mas": 1)")),
              ContainsSubstring("pile.json: bodies[1].mas: unknown key; known here: name, motion, shape"));
-  CHECK_THAT(complaint(with_body(R"("mass": "heavy")")),
+  CHECK_THAT(scene_fault(with_body(R"("mass": "heavy")")),
              ContainsSubstring("pile.json: bodies[1].mass: is \"heavy\"; a number"));
-  CHECK_THAT(complaint(with_body(R"("mass": null)")), ContainsSubstring("bodies[1].mass: is null; a number"));
-  CHECK_THAT(complaint(with_body(R"("mass": "nan")")), ContainsSubstring("bodies[1].mass"));
-  CHECK_THAT(complaint(with_body(R"("mass": "0xinf")")), ContainsSubstring("bodies[1].mass"));
-  CHECK_THAT(complaint(with_body(R"("mass": "0x1p+200")")), ContainsSubstring("bodies[1].mass"));
-  CHECK_THAT(complaint(with_body(R"("mass": "0x1.8p+1kg")")), ContainsSubstring("bodies[1].mass"));
-  CHECK_THAT(complaint(with_body(R"("mass": "0x")")), ContainsSubstring("bodies[1].mass"));
-  CHECK_THAT(complaint(with_body(R"("mass": 1e39)")),
+  CHECK_THAT(scene_fault(with_body(R"("mass": null)")), ContainsSubstring("bodies[1].mass: is null; a number"));
+  CHECK_THAT(scene_fault(with_body(R"("mass": "nan")")), ContainsSubstring("bodies[1].mass"));
+  CHECK_THAT(scene_fault(with_body(R"("mass": "0xinf")")), ContainsSubstring("bodies[1].mass"));
+  CHECK_THAT(scene_fault(with_body(R"("mass": "0x1p+200")")), ContainsSubstring("bodies[1].mass"));
+  CHECK_THAT(scene_fault(with_body(R"("mass": "0x1.8p+1kg")")), ContainsSubstring("bodies[1].mass"));
+  CHECK_THAT(scene_fault(with_body(R"("mass": "0x")")), ContainsSubstring("bodies[1].mass"));
+  CHECK_THAT(scene_fault(with_body(R"("mass": 1e39)")),
              ContainsSubstring("bodies[1].mass: is 1e+39; no finite 32-bit float"));
-  CHECK_THAT(complaint(with_body(R"("position": [1, 2])")),
+  CHECK_THAT(scene_fault(with_body(R"("position": [1, 2])")),
              ContainsSubstring("bodies[1].position: is [1,2]; an array of 3 numbers"));
-  CHECK_THAT(complaint(with_body(R"("position": [1, 2, true])")),
+  CHECK_THAT(scene_fault(with_body(R"("position": [1, 2, true])")),
              ContainsSubstring("bodies[1].position[2]: is true; a number"));
-  CHECK_THAT(complaint(with_body(R"("orientation": [0, 0, 0])")), ContainsSubstring("array of 4 numbers"));
-  CHECK_THAT(complaint(with_body(R"("motion": "moving")")),
+  CHECK_THAT(scene_fault(with_body(R"("orientation": [0, 0, 0])")), ContainsSubstring("array of 4 numbers"));
+  CHECK_THAT(scene_fault(with_body(R"("motion": "moving")")),
              ContainsSubstring("bodies[1].motion: is \"moving\"; one of fixed, kinematic, dynamic"));
-  CHECK_THAT(complaint(with_body(R"("shape": -1)")), ContainsSubstring("bodies[1].shape: is -1; an integer from 0"));
-  CHECK_THAT(complaint(with_body(R"("filter_mask": 4294967296)")), ContainsSubstring("bodies[1].filter_mask"));
-  CHECK_THAT(complaint(with_body(R"("infinite_inertia": 1)")), ContainsSubstring("true or false"));
-  CHECK_THAT(complaint(R"({"tandem_scene": 1, "shapes": {}, "bodies": []})"),
+  CHECK_THAT(scene_fault(with_body(R"("shape": -1)")), ContainsSubstring("bodies[1].shape: is -1; an integer from 0"));
+  CHECK_THAT(scene_fault(with_body(R"("filter_mask": 4294967296)")), ContainsSubstring("bodies[1].filter_mask"));
+  CHECK_THAT(scene_fault(with_body(R"("infinite_inertia": 1)")), ContainsSubstring("true or false"));
+  CHECK_THAT(scene_fault(R"({"tandem_scene": 1, "shapes": {}, "bodies": []})"),
              ContainsSubstring("shapes: is {}; an array"));
-  CHECK_THAT(complaint(R"({"tandem_scene": 1, "shapes": [], "bodies": [3]})"),
+  CHECK_THAT(scene_fault(R"({"tandem_scene": 1, "shapes": [], "bodies": [3]})"),
              ContainsSubstring("bodies[0]: is 3; an object"));
-  CHECK_THAT(complaint(R"({"tandem_scene": 1, "shapes": []})"), ContainsSubstring("\"bodies\" is missing"));
-  CHECK_THAT(complaint(R"({"tandem_scene": 2, "shapes": [], "bodies": []})"), ContainsSubstring("version 1 is known"));
-  CHECK_THAT(complaint(R"({"shapes": []})"), ContainsSubstring("this is not a Tandem scene"));
-  CHECK_THAT(complaint("[]"), ContainsSubstring("an object is needed"));
-  CHECK_THAT(complaint(R"({"tandem_scene": 1, "shapes": [{"type": "torus"}], "bodies": []})"),
+  CHECK_THAT(scene_fault(R"({"tandem_scene": 1, "shapes": []})"), ContainsSubstring("\"bodies\" is missing"));
+  CHECK_THAT(scene_fault(R"({"tandem_scene": 2, "shapes": [], "bodies": []})"),
+             ContainsSubstring("version 1 is known"));
+  CHECK_THAT(scene_fault(R"({"shapes": []})"), ContainsSubstring("this is not a Tandem scene"));
+  CHECK_THAT(scene_fault("[]"), ContainsSubstring("an object is needed"));
+  CHECK_THAT(scene_fault(R"({"tandem_scene": 1, "shapes": [{"type": "torus"}], "bodies": []})"),
              ContainsSubstring("shapes[0].type: is \"torus\"; one of"));
-  CHECK_THAT(complaint(R"({"tandem_scene": 1, "shapes": [{"type": "sphere"}], "bodies": []})"),
+  CHECK_THAT(scene_fault(R"({"tandem_scene": 1, "shapes": [{"type": "sphere"}], "bodies": []})"),
              ContainsSubstring("\"radius\" is missing"));
-  CHECK_THAT(complaint(R"({"tandem_scene": 1, "shapes": [{"type": "box", "radius": 1}], "bodies": []})"),
+  CHECK_THAT(scene_fault(R"({"tandem_scene": 1, "shapes": [{"type": "box", "radius": 1}], "bodies": []})"),
              ContainsSubstring("shapes[0].radius: unknown key"));
   CHECK_THAT(
-      complaint(R"({"tandem_scene": 1, "shapes": [{"type": "sphere", "radius": 1, "size": [1, 1, 1]}], "bodies": []})"),
+      scene_fault(
+          R"({"tandem_scene": 1, "shapes": [{"type": "sphere", "radius": 1, "size": [1, 1, 1]}], "bodies": []})"),
       ContainsSubstring("exclude"));
 }
 
@@ -295,7 +297,7 @@ TEST_CASE("capsules, cylinders, cones and hulls written by hand")
 
 TEST_CASE("mistakes in shapes are named with their place")
 {
-  auto told = [](const std::string &shape) { return complaint(with_shape(shape)); };
+  auto told = [](const std::string &shape) { return scene_fault(with_shape(shape)); };
   CHECK_THAT(told(R"({"type": "capsule", "half_height": 1})"),
              ContainsSubstring("shapes[0]: \"radius_bottom\" is missing"));
   CHECK_THAT(told(R"({"type": "capsule", "radius_bottom": 1, "half_height": 1})"),
@@ -339,7 +341,7 @@ TEST_CASE("a density takes mass, centre and axes from the shape")
   CHECK(box.bodies[0].position == Point{0.1, 0, 0});
 
   auto told = [](const std::string &body, const std::string &shape = wedge) {
-    return complaint(with_shape(shape, body));
+    return scene_fault(with_shape(shape, body));
   };
   CHECK_THAT(told(""), ContainsSubstring("body 0: inertia from shape and mass is about"));
   CHECK_THAT(told(R"("density": 1, "mass": 1)"),
@@ -357,13 +359,14 @@ TEST_CASE("a density takes mass, centre and axes from the shape")
 
 TEST_CASE("values that cannot be simulated are refused")
 {
-  CHECK(complaint(with_body("")).empty());
-  CHECK_THAT(complaint(with_body(R"("mass": -3)")), ContainsSubstring("pile.json: body 1: mass is -3"));
-  CHECK_THAT(complaint(with_body(R"("shape": 1)")), ContainsSubstring("shape 1 does not exist; the scene has 1"));
-  CHECK_THAT(complaint(with_body(R"("orientation": [0, 0, 0, 0])")), ContainsSubstring("a quaternion of length 1"));
-  CHECK_THAT(complaint(R"({"tandem_scene": 1, "shapes": [{"type": "box", "half_extents": [1, 0, 1]}], "bodies": []})"),
-             ContainsSubstring("shape 0: a half extent is 0"));
-  CHECK_THAT(complaint(R"({"tandem_scene": 1, "materials": [], "shapes": [], "bodies": []})"),
+  CHECK(scene_fault(with_body("")).empty());
+  CHECK_THAT(scene_fault(with_body(R"("mass": -3)")), ContainsSubstring("pile.json: body 1: mass is -3"));
+  CHECK_THAT(scene_fault(with_body(R"("shape": 1)")), ContainsSubstring("shape 1 does not exist; the scene has 1"));
+  CHECK_THAT(scene_fault(with_body(R"("orientation": [0, 0, 0, 0])")), ContainsSubstring("a quaternion of length 1"));
+  CHECK_THAT(
+      scene_fault(R"({"tandem_scene": 1, "shapes": [{"type": "box", "half_extents": [1, 0, 1]}], "bodies": []})"),
+      ContainsSubstring("shape 0: a half extent is 0"));
+  CHECK_THAT(scene_fault(R"({"tandem_scene": 1, "materials": [], "shapes": [], "bodies": []})"),
              ContainsSubstring("at least one"));
 }
 

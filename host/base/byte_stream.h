@@ -1,0 +1,179 @@
+/* byte_stream.h - values as bytes and back, for the files that the library writes and reads: snapshots and recordings.
+ *
+ * Numbers are little-endian. A list or a text has its length before it, in 8 bytes. The fields of a record are those
+ * that fields_of(record) returns, a tuple of references, so that one place names them for both directions
+ * (host/world/snapshot_fields.h).
+ *
+ * A reader trusts nothing: it checks every length against the bytes that are left before it allocates, and throws
+ * InputError with the place in the bytes.
+ */
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <optional>
+#include <span>
+#include <string>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <tandem/error.h>
+
+namespace tandem {
+
+static_assert(std::endian::native == std::endian::little, "numbers in snapshots have the order of bytes in memory");
+
+template <class T> constexpr bool is_number = std::is_arithmetic_v<T> && !std::is_same_v<T, bool>;
+
+/* Numbers, and arrays of numbers: records whose bytes are copied as they are, because they have no gaps. */
+template <class T> struct IsPlain : std::bool_constant<is_number<T>> {};
+template <class T, size_t n> struct IsPlain<std::array<T, n>> : IsPlain<T> {};
+
+template <class T> struct IsArray : std::false_type {};
+template <class T, size_t n> struct IsArray<std::array<T, n>> : std::true_type {};
+template <class T> struct IsVector : std::false_type {};
+template <class T> struct IsVector<std::vector<T>> : std::true_type {};
+template <class T> struct IsSpan : std::false_type {};
+template <class T> struct IsSpan<std::span<T>> : std::true_type {};
+template <class T> struct IsOptional : std::false_type {};
+template <class T> struct IsOptional<std::optional<T>> : std::true_type {};
+
+class ByteWriter {
+public:
+  void reserve(size_t bytes) { bytes_.reserve(bytes); }
+  size_t size() const { return bytes_.size(); }
+  std::vector<std::byte> take() { return std::move(bytes_); }
+  std::byte *data() { return bytes_.data(); }
+
+  /* Makes room for so many bytes, to be filled by the caller before the next call. */
+  std::byte *extend(size_t bytes)
+  {
+    bytes_.resize(bytes_.size() + bytes);
+    return bytes_.data() + (bytes_.size() - bytes);
+  }
+  void put_bytes(const void *from, size_t bytes)
+  {
+    const auto *first = static_cast<const std::byte *>(from);
+    bytes_.insert(bytes_.end(), first, first + bytes);
+  }
+
+  template <class T> void put(const T &value)
+  {
+    if constexpr (std::is_same_v<T, bool>) put(static_cast<uint8_t>(value ? 1 : 0));
+    else if constexpr (std::is_enum_v<T>) put(static_cast<std::underlying_type_t<T>>(value));
+    else if constexpr (IsPlain<T>::value) put_bytes(&value, sizeof value);
+    else if constexpr (std::is_same_v<T, std::string>) put_list_of_bytes(value.data(), value.size(), 1);
+    else if constexpr (IsArray<T>::value) {
+      for (const auto &element : value) put(element);
+    } else if constexpr (IsVector<T>::value || IsSpan<T>::value) put_list(std::span(value));
+    else if constexpr (IsOptional<T>::value) {
+      put(value.has_value());
+      if (value) put(*value);
+    } else std::apply([this](const auto &...fields) { (put(fields), ...); }, fields_of(value));
+  }
+  template <class Element> void put_list(std::span<Element> values)
+  {
+    using T = std::remove_const_t<Element>;
+    if constexpr (IsPlain<T>::value) return put_list_of_bytes(values.data(), values.size(), sizeof(T));
+    put(uint64_t{values.size()});
+    for (const T &value : values) put(value);
+  }
+
+private:
+  void put_list_of_bytes(const void *from, size_t count, size_t element)
+  {
+    put(uint64_t{count});
+    if (count > 0) put_bytes(from, count * element);
+  }
+
+  std::vector<std::byte> bytes_;
+};
+
+class ByteReader {
+public:
+  /* where: what the bytes are, for messages; offset: the place of the first one in the whole. */
+  ByteReader(std::span<const std::byte> bytes, std::string where, size_t offset = 0)
+      : bytes_(bytes), where_(std::move(where)), offset_(offset)
+  {}
+
+  [[noreturn]] void fail(const std::string &why) const
+  {
+    throw InputError(fmt::format("{}: byte {}: {}; the file is damaged", where_, offset_ + at_, why));
+  }
+  const std::string &where() const { return where_; }
+  size_t left() const { return bytes_.size() - at_; }
+  size_t position() const { return offset_ + at_; }
+
+  std::span<const std::byte> take(uint64_t bytes)
+  {
+    if (bytes > left()) fail(fmt::format("{} bytes are needed, and {} are left", bytes, left()));
+    const auto part = bytes_.subspan(at_, static_cast<size_t>(bytes));
+    at_ += part.size();
+    return part;
+  }
+
+  template <class T> T get()
+  {
+    T value{};
+    get(value);
+    return value;
+  }
+  template <class T> void get(T &value)
+  {
+    if constexpr (std::is_same_v<T, bool>) value = get_flag();
+    else if constexpr (std::is_enum_v<T>) value = static_cast<T>(get<std::underlying_type_t<T>>());
+    else if constexpr (IsPlain<T>::value) std::memcpy(&value, take(sizeof value).data(), sizeof value);
+    else if constexpr (std::is_same_v<T, std::string>) {
+      const auto text = take(get<uint64_t>());
+      value.assign(reinterpret_cast<const char *>(text.data()), text.size());
+    } else if constexpr (IsArray<T>::value) {
+      for (auto &element : value) get(element);
+    } else if constexpr (IsVector<T>::value) get_list(value);
+    else if constexpr (IsOptional<T>::value) {
+      if (get_flag()) get(value.emplace());
+      else value.reset();
+    } else std::apply([this](auto &...fields) { (get(fields), ...); }, fields_of(value));
+  }
+  /* Nothing may follow what was read. */
+  void expect_end() const
+  {
+    if (left() > 0) fail(fmt::format("{} bytes follow the end of the contents", left()));
+  }
+
+private:
+  bool get_flag()
+  {
+    const auto flag = get<uint8_t>();
+    if (flag > 1) fail(fmt::format("a flag is {}; 0 or 1 is needed", flag));
+    return flag == 1;
+  }
+  /* Elements that are not plain take a byte at least, and are allocated as they are read. */
+  template <class T> void get_list(std::vector<T> &values)
+  {
+    const auto count = get<uint64_t>();
+    constexpr size_t least = IsPlain<T>::value ? sizeof(T) : 1;
+    if (count > left() / least)
+      fail(fmt::format("a list of {} entries does not fit into the {} bytes left", count, left()));
+    values.clear();
+    if constexpr (IsPlain<T>::value) {
+      values.resize(static_cast<size_t>(count));
+      const auto part = take(count * sizeof(T));
+      if (count > 0) std::memcpy(values.data(), part.data(), part.size());
+    } else
+      for (uint64_t k = 0; k < count; ++k) get(values.emplace_back());
+  }
+
+  std::span<const std::byte> bytes_;
+  std::string where_;
+  size_t offset_;
+  size_t at_ = 0;
+};
+
+} // namespace tandem

@@ -1,0 +1,437 @@
+/* snapshot.cpp - writes worlds as bytes, checks such bytes, and makes worlds of them; see snapshot.h. */
+#include "host/world/snapshot.h"
+
+#include <algorithm>
+
+#include <fmt/ranges.h>
+
+#include "host/runtime/interface/floating_point.h"
+#include "host/runtime/interface/module.h"
+#include "host/world/implementation.h"
+#include "host/world/snapshot_fields.h"
+#include "host/world/snapshot_scene.h"
+#include "shared/batching/limits.h"
+
+namespace tandem {
+
+template <Is<BodySlots::Slot> T> auto fields_of(T &record)
+{
+  auto &[generation] = record;
+  return std::tie(generation);
+}
+
+template <Is<ShapeSlots::Slot> T> auto fields_of(T &record)
+{
+  auto &[generation, exists, body] = record;
+  return std::tie(generation, exists, body);
+}
+
+template <Is<BodySlots::Free> T> auto fields_of(T &record)
+{
+  auto &[slot, since] = record;
+  return std::tie(slot, since);
+}
+
+namespace {
+
+/* By name, because the bits of features have other places in other versions. */
+constexpr const char *feature_names[] = {
+#define FEATURE(name, what) #name,
+#include "shared/features.def"
+#undef FEATURE
+};
+
+std::vector<std::string> names_of(Features features)
+{
+  std::vector<std::string> names;
+  for (int index = 0; index < FEATURE_COUNT; ++index)
+    if (features & feature_of_index(index)) names.emplace_back(feature_names[index]);
+  return names;
+}
+
+Features get_features(ByteReader &reader)
+{
+  Features features = 0;
+  for (const std::string &name : reader.get<std::vector<std::string>>()) {
+    const auto known = std::find(std::begin(feature_names), std::end(feature_names), name);
+    if (known == std::end(feature_names)) reader.fail("it needs a feature that this library does not have");
+    features |= feature_of_index(static_cast<int>(known - std::begin(feature_names)));
+  }
+  return features;
+}
+
+/* Half-spaces first, then at most so many large bodies as the kernels can test; each body once. */
+void check_order(const ByteReader &reader, const Scene &scene, const Specialisation &special)
+{
+  const size_t bodies = scene.bodies.size();
+  std::vector<bool> seen(bodies);
+  if (special.order.size() != bodies)
+    reader.fail(
+        fmt::format("the order of the bodies has {} entries; there are {} bodies", special.order.size(), bodies));
+  for (const uint32_t body : special.order) {
+    if (body >= bodies || seen[body]) reader.fail("the order of the bodies does not hold each of them once");
+    seen[body] = true;
+  }
+  if (special.unbounded > special.large || special.large > bodies ||
+      special.large - special.unbounded > most_large_bodies)
+    reader.fail(fmt::format("{} half-spaces and {} bodies with the large ones, of {}", special.unbounded, special.large,
+                            bodies));
+  for (uint32_t index = 0; index < bodies; ++index)
+    if ((scene.shapes[scene.bodies[special.order[index]].shape].type == ShapeType::half_space) !=
+        (index < special.unbounded))
+      reader.fail("half-spaces are not the first bodies in the buffers");
+  if (!(special.median >= 0) || !std::isfinite(special.median)) reader.fail("the median size of the bodies is no size");
+}
+
+Specialisation get_special(ByteReader &reader, const Scene &scene)
+{
+  Specialisation special;
+  special.features = get_features(reader);
+  reader.get(special.order);
+  reader.get(special.unbounded);
+  reader.get(special.large);
+  reader.get(special.median);
+  check_order(reader, scene, special);
+  return special;
+}
+
+void put_special(ByteWriter &writer, const Specialisation &special, Features needed)
+{
+  const auto &[features, order, unbounded, large, median] = special;
+  writer.put(names_of(needed));
+  writer.put(order);
+  writer.put(unbounded);
+  writer.put(large);
+  writer.put(median);
+  static_cast<void>(features); /* follow from those needed and Settings::specialise */
+}
+
+BodyRegion region_at(const Specialisation &special, uint32_t index)
+{
+  return index < special.unbounded ? BodyRegion::half_spaces
+         : index < special.large   ? BodyRegion::large
+                                   : BodyRegion::small;
+}
+
+/* A free slot waits in the queue of its region, once, unless its generations are used up. */
+void check_slots(const ByteReader &reader, const Specialisation &special, const std::vector<BodySlots::Slot> &slots,
+                 const std::vector<BodyStatus> &status, const BodySlots::Queues &queues)
+{
+  const size_t bodies = special.order.size();
+  if (slots.size() != bodies || status.size() != bodies)
+    reader.fail(fmt::format("{} generations and {} states of {} bodies", slots.size(), status.size(), bodies));
+  for (const BodyStatus one : status)
+    if (one > BodyStatus::free) reader.fail("the state of a body is none that bodies have");
+  for (const BodySlots::Slot &slot : slots)
+    if (slot.generation == 0) reader.fail("a body has generation 0; generations begin with 1");
+  std::vector<uint32_t> index_of(bodies);
+  for (uint32_t index = 0; index < bodies; ++index) index_of[special.order[index]] = index;
+  std::vector<bool> queued(bodies);
+  for (size_t region = 0; region < queues.size(); ++region)
+    for (const auto &[slot, since] : queues[region]) {
+      const bool fits = slot < bodies && status[slot] == BodyStatus::free && !queued[slot] &&
+                        region_at(special, index_of[slot]) == static_cast<BodyRegion>(region);
+      if (!fits) reader.fail("a queue of free slots holds a slot that is not free, or of another queue");
+      queued[slot] = true;
+    }
+}
+
+BodySlots get_slots(ByteReader &reader, const Specialisation &special)
+{
+  auto slots = reader.get<std::vector<BodySlots::Slot>>();
+  auto status = reader.get<std::vector<BodyStatus>>();
+  auto queues = reader.get<BodySlots::Queues>();
+  check_slots(reader, special, slots, status, queues);
+  return {std::move(slots), std::move(status), std::move(queues)};
+}
+
+/* Each handle names its body's slot, whose queue holds the slots of no body. */
+void check_shapes(const ByteReader &reader, const SnapshotContents &contents)
+{
+  const ShapeSlots &shapes = contents.shapes;
+  std::vector<bool> named(shapes.slots().size());
+  for (const auto &[body, handles] : shapes.handles())
+    for (const ShapeId &id : handles) {
+      const bool fits = body < contents.scene.bodies.size() && id.index < named.size() && !named[id.index] &&
+                        shapes.slots()[id.index].exists && shapes.slots()[id.index].body.index == body;
+      if (!fits) reader.fail("the handle of a shape belongs to no body, or to several");
+      named[id.index] = true;
+    }
+  for (const uint32_t slot : shapes.queue()) {
+    if (slot >= named.size() || named[slot] || shapes.slots()[slot].exists)
+      reader.fail("the queue of free handles of shapes holds one that is not free");
+    named[slot] = true;
+  }
+  for (const uint32_t shape : contents.made_shapes)
+    if (shape >= contents.scene.shapes.size()) reader.fail("a shape of one body alone does not exist");
+}
+
+/* A list of handles for each body that has some. */
+struct HandlesOfBody {
+  uint32_t body = 0;
+  std::vector<ShapeId> handles;
+};
+
+template <Is<HandlesOfBody> T> auto fields_of(T &record)
+{
+  auto &[body, handles] = record;
+  return std::tie(body, handles);
+}
+
+void put_shapes(ByteWriter &writer, const ShapeSlots &shapes, const std::set<uint32_t> &made)
+{
+  std::vector<HandlesOfBody> handles;
+  for (const auto &[body, list] : shapes.handles()) handles.push_back({body, list});
+  writer.put(shapes.slots());
+  writer.put(shapes.queue());
+  writer.put(handles);
+  writer.put(std::vector<uint32_t>(made.begin(), made.end()));
+}
+
+void get_shapes(ByteReader &reader, SnapshotContents &contents)
+{
+  auto slots = reader.get<std::vector<ShapeSlots::Slot>>();
+  auto queue = reader.get<std::vector<uint32_t>>();
+  ShapeSlots::Handles handles;
+  for (HandlesOfBody &one : reader.get<std::vector<HandlesOfBody>>()) handles[one.body] = std::move(one.handles);
+  contents.shapes = {std::move(slots), std::move(queue), std::move(handles)};
+  reader.get(contents.made_shapes);
+  check_shapes(reader, contents);
+}
+
+/* The starts of the cached pairs of each body: kernels index the cache with them. Returns the number of pairs. */
+uint32_t check_starts(const ByteReader &reader, std::span<const std::byte> bytes)
+{
+  std::vector<uint32_t> starts(bytes.size() / sizeof(uint32_t));
+  std::memcpy(starts.data(), bytes.data(), starts.size() * sizeof(uint32_t));
+  if (starts.front() != 0 || !std::is_sorted(starts.begin(), starts.end()) || starts.back() > most_pairs)
+    reader.fail("the starts of the cached pairs do not increase from 0");
+  return starts.back();
+}
+
+size_t item_bytes(Buffer buffer) { return row_of(buffer).per_item * size_of(row_of(buffer).element); }
+
+/* One by name, as it was written: the record of its row, and its bytes. */
+SavedBuffer get_buffer(ByteReader &reader)
+{
+  const auto name = reader.get<std::string>();
+  const auto item = reader.get<uint64_t>();
+  const std::optional<Buffer> buffer = find_buffer(name);
+  if (!buffer) reader.fail("it holds a buffer that this library does not have");
+  if (item != item_bytes(*buffer))
+    reader.fail(fmt::format("buffer {} has items of {} bytes; here they have {}", name, item, item_bytes(*buffer)));
+  return {*buffer, reader.take(reader.get<uint64_t>())};
+}
+
+/* Carried buffers that follow the bodies and the cached pairs have just as many items. */
+void check_sizes(const ByteReader &reader, const SnapshotContents &contents)
+{
+  const auto bodies = static_cast<uint32_t>(contents.scene.bodies.size());
+  for (const auto &[buffer, bytes] : contents.buffers) {
+    const BufferRow &row = row_of(buffer);
+    uint64_t items = bytes.size() / item_bytes(buffer);
+    if (!is_carried(row.lifetime) && bytes.size() == items * item_bytes(buffer)) continue;
+    if (row.capacity == Capacity::BODIES) items = bodies;
+    if (row.capacity == Capacity::BODIES_PLUS_ONE) items = uint64_t{bodies} + 1;
+    if (row.capacity == Capacity::PAIRS) items = contents.pairs;
+    if (bytes.size() != items * item_bytes(buffer))
+      reader.fail(fmt::format("buffer {} has {} bytes; {} items need {}", row.name, bytes.size(), items,
+                              items * item_bytes(buffer)));
+  }
+}
+
+void get_buffers(ByteReader &reader, SnapshotContents &contents)
+{
+  const auto count = reader.get<uint64_t>();
+  std::vector<bool> seen(all_buffers());
+  for (uint64_t k = 0; k < count; ++k) {
+    contents.buffers.push_back(get_buffer(reader));
+    const SavedBuffer &saved = contents.buffers.back();
+    if (seen[index_of(saved.buffer)]) reader.fail(fmt::format("buffer {} occurs twice", row_of(saved.buffer).name));
+    seen[index_of(saved.buffer)] = true;
+    if (saved.buffer == Buffer::cached_start && !saved.bytes.empty())
+      contents.pairs = check_starts(reader, saved.bytes);
+  }
+  check_sizes(reader, contents);
+}
+
+void check_history(const ByteReader &reader, const SnapshotContents &contents)
+{
+  for (const Quarantine &taken : contents.quarantined)
+    if (taken.body >= contents.scene.bodies.size()) reader.fail("a body that was quarantined does not exist");
+  if (contents.room < contents.scene.bodies.size() || contents.room > 2 * contents.scene.bodies.size() + 64)
+    reader.fail(fmt::format("room for {} bodies, of which there are {}", contents.room, contents.scene.bodies.size()));
+}
+
+void get_settings(ByteReader &reader, Settings &settings)
+{
+  reader.get(settings);
+  try {
+    validate(settings);
+  } catch (const InputError &error) {
+    reader.fail(error.what());
+  }
+}
+
+} // namespace
+
+SnapshotContents read_snapshot(std::span<const std::byte> bytes, const std::string &where)
+{
+  ByteReader reader(unseal(bytes, snapshot_kind, where), where, seal_bytes);
+  SnapshotContents contents;
+  reader.get(contents.modules);
+  get_settings(reader, contents.settings);
+  contents.scene = get_scene(reader);
+  contents.special = get_special(reader, contents.scene);
+  contents.slots = get_slots(reader, contents.special);
+  get_shapes(reader, contents);
+  reader.get(contents.room);
+  reader.get(contents.forces);
+  reader.get(contents.steps);
+  reader.get(contents.overflow);
+  reader.get(contents.quarantined);
+  reader.get(contents.fault);
+  check_history(reader, contents);
+  get_buffers(reader, contents);
+  reader.expect_end();
+  return contents;
+}
+
+/* Scenes' buffers of the pipeline are made of the scene again. What a module keeps may be lost, but for buffers that
+ * exist only once they have been written. */
+bool World::Implementation::is_saved(Buffer buffer) const
+{
+  const Lifetime lifetime = row_of(buffer).lifetime;
+  if (memory.bytes(buffer) == 0) return false;
+  if (index_of(buffer) < buffer_count) return false; /* among the carried ones, where it is */
+  return lifetime == Lifetime::SCENE || (lifetime == Lifetime::KEPT && is_sized_by_writes(buffer));
+}
+
+void World::Implementation::put_history(ByteWriter &writer) const
+{
+  writer.put(plan.bodies);
+  writer.put(plan.forces);
+  writer.put(statistics.steps);
+  writer.put(statistics.overflow);
+  writer.put(quarantined);
+  writer.put(fault);
+}
+
+void World::Implementation::put_buffers(ByteWriter &writer)
+{
+  const uint32_t pairs = memory.read<uint32_t>(Buffer::cached_start, 1, bodies()).front();
+  std::vector<std::pair<Buffer, size_t>> saved;
+  for (const CarriedBuffer &carried : buffers.carried())
+    if (memory.bytes(carried.now) > 0)
+      saved.emplace_back(carried.now, items_in_use(memory, carried.now, bodies(), pairs) * item_bytes(carried.now));
+  for (size_t i = buffer_count; i < buffers.needs().touched.size(); ++i)
+    if (is_saved(buffer_at(i))) saved.emplace_back(buffer_at(i), memory.bytes(buffer_at(i)));
+  size_t total = 0;
+  for (const auto &[buffer, bytes] : saved) total += bytes + 128;
+  writer.reserve(writer.size() + total);
+  writer.put(uint64_t{saved.size()});
+  for (const auto &[buffer, bytes] : saved) {
+    writer.put(std::string(row_of(buffer).name));
+    writer.put(uint64_t{item_bytes(buffer)});
+    writer.put(uint64_t{bytes});
+    memory.download(buffer, writer.extend(bytes), bytes);
+  }
+}
+
+std::vector<std::byte> World::Implementation::save()
+{
+  settle();
+  ByteWriter writer;
+  begin_sealed(writer);
+  std::vector<std::string> modules;
+  for (const Extension &extension : settings.extensions) modules.emplace_back(extension.module->name());
+  writer.put(modules);
+  writer.put(settings);
+  put_scene(writer, scene);
+  put_special(writer, special, scene_features);
+  writer.put(slots.slots());
+  writer.put(slots.status());
+  writer.put(slots.queues());
+  put_shapes(writer, shapes, made_shapes);
+  put_history(writer);
+  put_buffers(writer);
+  return seal(writer, snapshot_kind);
+}
+
+namespace {
+
+void check_modules(const std::vector<std::string> &wanted, const std::vector<Extension> &given,
+                   const std::string &where)
+{
+  std::vector<std::string> names;
+  for (const Extension &extension : given) names.emplace_back(extension.module->name());
+  if (names != wanted)
+    throw InputError(fmt::format("{}: its world had the modules [{}], and [{}] are given; give extensions of the same "
+                                 "modules in the same order",
+                                 where, fmt::join(wanted, ", "), fmt::join(names, ", ")));
+}
+
+/* Ample, so that the next step hardly ever runs again, and enough for what modules keep by pairs. */
+uint32_t capacity_for(const SnapshotContents &contents)
+{
+  uint64_t pairs = std::max<uint64_t>(first_capacity(contents.scene, contents.settings),
+                                      uint64_t{contents.pairs} + contents.pairs / 4);
+  pairs = std::max<uint64_t>(std::min<uint64_t>(pairs, contents.settings.max_pairs), contents.pairs);
+  for (const auto &[buffer, bytes] : contents.buffers)
+    if (!is_carried(row_of(buffer).lifetime) &&
+        (row_of(buffer).capacity == Capacity::PAIRS || row_of(buffer).capacity == Capacity::PAIRS_PLUS_ONE ||
+         row_of(buffer).capacity == Capacity::EVENTS))
+      pairs = std::max<uint64_t>(pairs, std::min<uint64_t>(bytes.size() / item_bytes(buffer), most_pairs));
+  return static_cast<uint32_t>(pairs);
+}
+
+} // namespace
+
+void World::Implementation::take_buffers(const SnapshotContents &contents)
+{
+  std::vector<bool> given(all_buffers());
+  for (const auto &[buffer, bytes] : contents.buffers) {
+    given[index_of(buffer)] = true;
+    const bool fits = is_carried(row_of(buffer).lifetime) || is_saved(buffer) || is_sized_by_writes(buffer);
+    if (is_sized_by_writes(buffer) && buffers.needs().touched[index_of(buffer)])
+      memory.assign(buffer, bytes.data(), bytes.size());
+    else if (!fits || bytes.size() > memory.bytes(buffer))
+      throw InputError(fmt::format("snapshot: buffer {} has {} bytes in it and {} here; the file is damaged",
+                                   row_of(buffer).name, bytes.size(), memory.bytes(buffer)));
+    else memory.upload(buffer, bytes.data(), bytes.size());
+  }
+  for (const CarriedBuffer &carried : buffers.carried())
+    if (memory.bytes(carried.now) > 0 && !given[index_of(carried.now)])
+      throw InputError(fmt::format("snapshot: buffer {} is missing; the file is damaged", row_of(carried.now).name));
+}
+
+std::unique_ptr<World::Implementation> World::Implementation::restored(std::span<const std::byte> snapshot,
+                                                                       std::vector<Extension> extensions,
+                                                                       const Placement &placement,
+                                                                       const Implementation *old)
+{
+  const minicl::ExactFloatingPoint environment;
+  SnapshotContents contents = read_snapshot(snapshot, "snapshot");
+  check_modules(contents.modules, extensions, "snapshot");
+  const uint32_t capacity = capacity_for(contents);
+  contents.settings.extensions = std::move(extensions);
+  auto world = std::make_unique<Implementation>(Beginning{std::move(contents.scene), std::move(contents.settings),
+                                                          std::move(contents.special), std::move(contents.slots),
+                                                          contents.room, capacity, contents.forces},
+                                                placement, old ? &old->backends : nullptr);
+  world->take_buffers(contents);
+  world->shapes = std::move(contents.shapes);
+  world->made_shapes = {contents.made_shapes.begin(), contents.made_shapes.end()};
+  world->statistics.steps = contents.steps;
+  world->statistics.overflow = contents.overflow;
+  world->statistics.nonfinite = static_cast<uint32_t>(contents.quarantined.size());
+  world->quarantined = std::move(contents.quarantined);
+  world->fault = contents.fault;
+  world->cached_pairs = contents.pairs;
+  if (old && old->ring.size() > 0)
+    world->keep_states(static_cast<uint32_t>(old->ring.size()), old->ring.keeps_after_steps());
+  if (old) world->launcher.set_observer(old->launcher.observer());
+  return world;
+}
+
+} // namespace tandem

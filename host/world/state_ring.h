@@ -1,0 +1,85 @@
+/* state_ring.h - the last states of a world, in memory of the devices that made them, for programs that go back a few
+ * steps: rollback in games over networks, search, optimisation.
+ *
+ *   keep   buffers --copy--> slot 2        slots   0   1   2   3     the slot after the newest is written next
+ *   go_back(1)     <--copy-- slot 1                    ^   newest
+ *
+ * A slot holds the carried buffers as far as they are in use, and of the host's part what a few steps change. Bodies
+ * that came and went in the span are undone with the list of what they replaced, as long as no call has laid the
+ * buffers out anew; then the older states are forgotten.
+ */
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <tandem/world.h>
+
+#include "host/runtime/memory.h"
+#include "host/world/body_slots.h"
+
+namespace tandem {
+
+/* A slot of the bodies whose body, or whose status, was changed. */
+struct RosterChange {
+  uint32_t slot;
+  std::optional<Body> before;                  /* the body that was replaced in Scene::bodies */
+  std::optional<std::array<uint32_t, 2>> tree; /* its row of body_tree */
+};
+
+struct KeptState {
+  std::vector<KeptBytes> buffers; /* in the order of the carried ones */
+  Statistics statistics;
+  std::optional<BatchFault> fault;
+  size_t quarantined = 0, shapes = 0, materials = 0;
+  uint32_t bodies = 0, pairs = 0;
+  bool forces = false;
+  size_t changes = 0; /* of the roster, so far */
+  std::shared_ptr<const BodySlots> slots;
+};
+
+class StateRing {
+public:
+  /* Throws away all states and makes so many slots. */
+  void resize(size_t slots, bool after_steps);
+  size_t size() const { return slots_.size(); }
+  bool keeps_after_steps() const { return after_steps_ && !slots_.empty(); }
+  size_t kept() const { return kept_; }
+
+  /* The slot to be written next; commit() makes it the newest state. */
+  KeptState &next() { return slots_[(newest_ + 1) % slots_.size()]; }
+  std::vector<KeptState> &slots() { return slots_; }
+  void commit() noexcept;
+  KeptState &back(size_t states) { return slots_[(newest_ + slots_.size() - states) % slots_.size()]; }
+  /* Makes back(states) the newest, and forgets the changes after it. */
+  void rewind(size_t states) noexcept;
+  void forget(std::string why) noexcept;
+  const std::string &why_forgotten() const { return why_; }
+
+  /* The bodies' slots as they are, shared by all states that have them. */
+  std::shared_ptr<const BodySlots> shared(const BodySlots &slots);
+  void prepare_changes(size_t more); /* so that note() cannot fail */
+  void note(RosterChange change) noexcept;
+  void note(std::vector<RosterChange> &changes) noexcept
+  {
+    for (RosterChange &change : changes) note(std::move(change));
+  }
+  size_t changes() const { return first_change_ + changes_.size(); }
+  /* Those after the first `changes`. */
+  std::span<RosterChange> changes_after(size_t changes);
+
+private:
+  std::vector<KeptState> slots_;
+  size_t newest_ = 0, kept_ = 0;
+  bool after_steps_ = true;
+  std::vector<RosterChange> changes_;
+  size_t first_change_ = 0; /* the number of the first of them */
+  std::shared_ptr<const BodySlots> shared_;
+  std::string why_;
+};
+
+} // namespace tandem

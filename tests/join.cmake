@@ -1,0 +1,36 @@
+# join.cmake - the tests of one concern are compiled as one source, since three quarters of the time of one alone go
+# into templates that its neighbours instantiate, too: Catch2, Eigen, the containers. Within a group a name in an
+# unnamed namespace stands once; a file that has no group is compiled by itself.
+#
+# What sanitizer trees run is grouped apart: they compile the one part anew and link the other as it is, and objects
+# that hold other tests besides would bring those, too.
+function(join_tests tests group pattern)
+  set(joined ${${tests}})
+  list(FILTER joined INCLUDE REGEX "^${CMAKE_CURRENT_SOURCE_DIR}/(${pattern})")
+  set_source_files_properties(${joined} PROPERTIES UNITY_GROUP ${group})
+endfunction()
+
+join_tests(watched_tests watched ".*")
+join_tests(lent_tests lent_worlds "host/(include|runtime|scene|world)/|physics/")
+join_tests(lent_tests lent_geometry "host/geometry/")
+join_tests(lent_tests lent_files "host/io/|tools/")
+join_tests(lent_tests lent_parity "parity/")
+
+set(other_tests ${TEST_SOURCES})
+list(REMOVE_ITEM other_tests ${watched_tests} ${lent_tests})
+join_tests(other_tests host "(host|minicl)/")
+join_tests(other_tests values "host/(base|catalog|geometry|verify)/")
+join_tests(other_tests world "host/world/")
+join_tests(other_tests parity "parity/")
+join_tests(other_tests physics "physics/")
+join_tests(other_tests collision
+  "physics/(compounds|continuous|gltf_scenes|hits|meshes|misses|misses_in_flight|overlap|seams|shapes.*)_")
+join_tests(other_tests solvers "physics/(body_coloring|mass_split|reference|reference_solve|solvers_.*|stiff_bodies)_")
+join_tests(other_tests shared "shared/(broadphase|midphase|parallel)/")
+join_tests(other_tests narrowphase "shared/narrowphase/")
+join_tests(other_tests convex "shared/narrowphase/(conservative|convex|cube|gjk|hull|libccd)_")
+join_tests(other_tests tools "tools/(bench|command|diff|embed|plot)/")
+join_tests(other_tests stability "tools/stability/")
+# These compile what their neighbours have under the same names: shared/ in double, and its trees beside the host's.
+set_source_files_properties(shared/narrowphase/convex_reference_test.cpp shared/midphase/subtree_pairs_test.cpp
+  PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)

@@ -1,0 +1,15 @@
+# The tests of a sanitizer tree: it compiles those that it watches, and takes the others' objects, each of a whole group
+# (tests/join.cmake), from TANDEM_OBJECTS_FROM.
+set(TEST_SOURCES ${watched_tests})
+if(NOT TANDEM_OBJECTS_FROM)
+  list(APPEND TEST_SOURCES ${lent_tests})
+  return()
+endif()
+set(objects ${TANDEM_OBJECTS_FROM}/tests/CMakeFiles)
+foreach(source IN LISTS lent_tests)
+  get_source_file_property(group ${source} UNITY_GROUP)
+  list(APPEND BORROWED_TESTS ${objects}/tandem_tests.dir/Unity/unity_${group}_cxx.cxx.o)
+endforeach()
+list(REMOVE_DUPLICATES BORROWED_TESTS)
+set(TEST_RUNNER ${objects}/tandem_test_runner.dir/main.cpp.o)
+set_source_files_properties(${BORROWED_TESTS} ${TEST_RUNNER} PROPERTIES EXTERNAL_OBJECT TRUE GENERATED TRUE)
