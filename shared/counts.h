@@ -91,7 +91,7 @@ enum {
   COUNT_FIRST_CONFLICT, /* the first of them, INDEX_NONE if none */
   COUNT_MISBATCHED,     /* pairs that touch and stand in no batch or in several, or do not touch and stand in one */
   COUNT_FIRST_MISBATCHED,
-  COUNT_ALL_BODIES,           /* those awake, which are COUNT_BODIES, and those that sleep behind them; set by the host */
+  COUNT_ALL_BODIES,           /* COUNT_BODIES, which are awake, and those that sleep behind them; set by the host */
   COUNT_SLEEPERS,             /* those alone; set by the host */
   COUNT_SLEEPER_REACH,        /* bits of a float: the largest half extent of their boxes, m */
   COUNT_SLEEPER_PAIRS,        /* pairs of a body that is awake and one that sleeps, up to the capacity */
@@ -103,6 +103,7 @@ enum {
   COUNT_FALLING_ASLEEP,       /* bodies that fall asleep at the end of the step */
   COUNT_EVENTS,      /* of the step; 0 unless it was committed */
   COUNT_PAIR_EVENTS, /* the same of pairs that come near, stay or leave */
+  COUNT_MOVED,       /* bodies that the step has moved, with Settings::moved_bodies */
   KIND_START,        /* the start of each kind in pair_of_kind, and the end of the last one */
   /* The ranges of the bodies sorted by colour, stored as those of COLOR_START. */
   BODY_COLOR_START = KIND_START + PAIR_KIND_NONE + 1,

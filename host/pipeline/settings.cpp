@@ -199,6 +199,7 @@ void validate(const Settings &settings)
   check_number("restitution speed", settings.restitution_speed, "m/s", true);
   check_number("sleep speed", settings.sleep_speed, "m/s", false);
   check_number("sleep time", settings.sleep_time, "s", false);
+  check_number("hit speed", settings.hit_speed, "m/s", true);
 }
 
 } // namespace tandem

@@ -80,7 +80,8 @@ void move_body_rows(Launcher &launcher, const BodyRows &rows, uint32_t length, u
 void place_awake_first(StepLaunches &step, uint32_t cached_pairs)
 {
   const uint32_t bodies = step.plan().bodies;
-  exclusive_scan(step.launcher(), Buffer::falls_asleep, Buffer::sleepers_before, Buffer::scan_sums, COUNT_BODIES, bodies);
+  exclusive_scan(step.launcher(), Buffer::falls_asleep, Buffer::sleepers_before, Buffer::scan_sums, COUNT_BODIES,
+                 bodies);
   step.run(Kernel::stop_sleepers);
   step.run(Kernel::place_awake_first);
   step.run(Kernel::count_awake_pairs);

@@ -154,6 +154,7 @@ private:
     if (settings().pair_events) list_pair_events();
     launcher().begin_commit();
     run(Kernel::commit_bodies);
+    if (settings().moved_bodies) list_moved_bodies();
     if (plan().forces) run(Kernel::clear_forces);
     if (plan().sleeping)
       run_range(Kernel::copy, COUNT_ZERO, COUNT_COMMIT_BODIES, {}, {Buffer::rest_count, Buffer::resting_steps});
@@ -169,6 +170,13 @@ private:
     }
     if (const auto keep = row_of(settings().solver).commit) keep(*this);
     run_extensions(StepPoint::commit);
+  }
+
+  void list_moved_bodies()
+  {
+    run(Kernel::note_moved);
+    compact(launcher(), Buffer::body_moved, Buffer::moved_start, Buffer::scan_sums, Buffer::moved_body,
+            COUNT_COMMIT_BODIES, plan().bodies, COUNT_MOVED);
   }
 
   void list_pair_events()

@@ -17,7 +17,7 @@ struct StepPlan {
   uint32_t bodies = 0;
   uint32_t capacity_pairs = 0;
   uint32_t capacity_cells = 0;
-  bool forces = false; /* a program or a module applies forces to bodies */
+  bool forces = false;         /* a program or a module applies forces to bodies */
   bool sleeping = false;       /* Settings::sleeping */
   bool drowsy = false;         /* some body had rested for long enough at the last step */
   bool sleepers = false;       /* some bodies sleep */

@@ -38,14 +38,15 @@ void PlacedLauncher::launch(const Launch &launch)
   for (const Argument &argument : row.arguments) {
     switch (argument.kind) {
     case Argument::Kind::buffer:
-      bound_.push_back({memory_.acquire(argument.buffer, backend.storage(), access_of(argument.buffer, argument.access)), 0});
+      bound_.push_back(
+          {memory_.acquire(argument.buffer, backend.storage(), access_of(argument.buffer, argument.access)), 0});
       if (argument.access != Access::in) note_written(argument.buffer);
       break;
     case Argument::Kind::slot:
       if (argument.access != Access::in) note_written(launch.slots.at(slot));
-      bound_.push_back({memory_.acquire(launch.slots.at(slot), backend.storage(),
-                                        access_of(launch.slots.at(slot), argument.access)),
-                        0});
+      bound_.push_back(
+          {memory_.acquire(launch.slots.at(slot), backend.storage(), access_of(launch.slots.at(slot), argument.access)),
+           0});
       ++slot;
       break;
     case Argument::Kind::value: bound_.push_back({nullptr, launch.values.at(value++)}); break;

@@ -283,7 +283,7 @@ void stage_fixed_rows(StagedUploads &uploads, const Scene &scene, const HullNumb
   ShapeRows shapes(scene, hulls);
   masses.add(scene, scene.bodies[body]);
   shapes.add(shape_of_body(scene, scene.bodies[body]), status);
-  uploads.add(Buffer::body_mass, std::move(masses.mass), index);
+  masses.stage(uploads, index);
   shapes.stage(uploads, index);
 }
 

@@ -23,6 +23,7 @@
 #include "host/pipeline/setting_rows.h"
 #include "host/runtime/interface/floating_point.h"
 #include "host/runtime/interface/module.h"
+#include "host/world/contact_events.h"
 #include "host/world/implementation.h"
 #include "host/world/placed_bodies.h"
 #include "host/world/reordered_rows.h"
@@ -80,8 +81,8 @@ void stage_reordered(StagedUploads &uploads, Memory &memory, const ReorderedRows
 
 /* All contents that follow the bodies: what steps carry over, and what modules keep by body. The contact cache has rows
  * of the bodies that are awake alone, which are the first ones; steps leave the rows of sleepers on both sides. */
-void stage_carried_rows(StagedUploads &uploads, Memory &memory, const StepBuffers &buffers,
-                        const BodyOrder &old_order, const BodyOrder &new_order)
+void stage_carried_rows(StagedUploads &uploads, Memory &memory, const StepBuffers &buffers, const BodyOrder &old_order,
+                        const BodyOrder &new_order)
 {
   const ReorderedRows rows(old_order.all, new_order.all), awake_rows(old_order.awake(), new_order.awake());
   for (const CarriedBuffer &carried : buffers.carried()) {
@@ -299,8 +300,8 @@ void World::Implementation::place_among_others(const Arrival &arrival)
   });
   const uint32_t pairs = memory.read<uint32_t>(Buffer::cached_start, 1, special.awake).front();
   uploads.add(Buffer::cached_start, std::vector<uint32_t>(appended.size(), pairs), special.awake + size_t{1});
-  const auto entries = entries_of({special.awake + static_cast<uint32_t>(appended.size()), special.unbounded,
-                                   special.large, sleepers.count()});
+  const auto entries = entries_of(
+      {special.awake + static_cast<uint32_t>(appended.size()), special.unbounded, special.large, sleepers.count()});
   for (const auto &[entry, value] : entries) uploads.add_count(static_cast<uint32_t>(entry), value);
   uploads.prepare(memory);
   scene_entries = entries;
@@ -340,7 +341,6 @@ std::vector<uint32_t> order_with(const Specialisation &special, const std::array
 /* The contents of cached_normal that steps would have left if the scene had had trees before. */
 std::vector<float4> normals_of_pairs(Memory &memory, uint32_t bodies)
 {
-  if (memory.bytes(Buffer::cached_normal) > 0) return {};
   return memory.read<float4>(Buffer::manifold_normal, memory.read<uint32_t>(Buffer::cached_start, 1, bodies).front());
 }
 
@@ -379,18 +379,26 @@ void World::Implementation::stage_arrival(StagedUploads &uploads, const Arrival 
     if (is_new.contains(special.order[index])) stage_states(uploads, scene, std::span(&special.order[index], 1), index);
 }
 
+std::vector<uint32_t> World::Implementation::moved_bodies()
+{
+  if (idle) return {};
+  return moved_before ? *moved_before : download_moved_bodies(memory, events_order());
+}
+
 /* Makes room, tables and kernels for the new bodies, and moves the others to their new places. */
 void World::Implementation::lay_out_anew(const Arrival &arrival)
 {
   buffers.make_ready(sizes());
+  if (settings.moved_bodies && statistics.steps > 0) moved_before = moved_bodies(); /* the list may lose its place */
   const std::vector<uint32_t> old_order = special.order;
   std::vector<uint32_t> order = order_with(special, arrival.appended);
-  std::vector<float4> normals = pairs_moved ? std::vector<float4>() : normals_of_pairs(memory, special.awake);
   const std::vector<CarriedBuffer> old_pair_rows = pair_rows(buffers.needs().touched);
   StagedUploads uploads;
   stage_carried_rows(uploads, memory, buffers, {old_order, special.awake},
                      {order, static_cast<uint32_t>(order.size()) - sleepers.count()});
-  uploads.add(Buffer::cached_normal, std::move(normals));
+  /* An attempt that failed may have left the buffer without contents. */
+  if ((special.features & FEATURE_TREES) == 0 && !pairs_moved)
+    uploads.add(Buffer::cached_normal, normals_of_pairs(memory, special.awake));
   std::vector<uint32_t> order_before = arrival.inserts() && order_of_events.empty() ? old_order : order_of_events;
   LayoutBackup backup(*this);
   plan_layout(arrival, std::move(order));

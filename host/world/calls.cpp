@@ -238,8 +238,7 @@ void World::Implementation::add_forces(std::span<const BodyId> ids, std::span<co
 void World::Implementation::set_gravity(const Vec3 &gravity)
 {
   if (!is_finite_vector(gravity))
-    throw InputError(
-        fmt::format("set_gravity: gravity is {}; three finite numbers are needed", vector_text(gravity)));
+    throw InputError(fmt::format("set_gravity: gravity is {}; three finite numbers are needed", vector_text(gravity)));
   settle();
   wake_all();
   Scene changed;

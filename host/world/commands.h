@@ -28,8 +28,8 @@ public:
    * COMMAND_. */
   void add(uint32_t slot, uint32_t kind, const Rows &rows) noexcept { commands_.push_back({slot, kind, rows}); }
   void add_slots_to(std::vector<uint32_t> &slots) const;
-  /* Uploads the list, launches the kernels over its bodies and empties the list. If it throws, the list is as it was and
-   * nothing was applied. index_of_body: in the buffers, by slot. */
+  /* Uploads the list, launches the kernels over its bodies and empties the list. If it throws, the list is as it was
+   * and nothing was applied. index_of_body: in the buffers, by slot. */
   void apply(std::span<const Kernel> kernels, const std::vector<uint32_t> &index_of_body, Memory &memory,
              Launcher &launcher);
 

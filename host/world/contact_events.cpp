@@ -30,6 +30,7 @@ ContactEvent event_of(const uint32_t *bodies, const float4 *contact, const Scene
   event.impulse = contact[0].w;
   event.separation = contact[1].w;
   event.normal = {contact[2].x, contact[2].y, contact[2].z};
+  event.approach_speed = contact[2].w;
   if (event.a > event.b) {
     std::swap(event.a, event.b);
     for (float &x : event.normal) x = 0.0f - x;
@@ -56,6 +57,24 @@ std::vector<ContactEvent> download_events(Memory &memory, const Scene &scene, co
   for (const auto &[pair, i] : places)
     events.push_back(event_of(&bodies[4 * size_t{i}], &contacts[3 * size_t{i}], scene, order));
   return events;
+}
+
+std::vector<HitEvent> hits_among(const std::vector<ContactEvent> &events, float hit_speed)
+{
+  std::vector<HitEvent> hits;
+  for (const ContactEvent &event : events)
+    if (event.kind == ContactEvent::Kind::begin && !event.trigger && event.approach_speed > hit_speed)
+      hits.push_back({event.a, event.b, event.point, event.normal, event.approach_speed});
+  return hits;
+}
+
+std::vector<uint32_t> download_moved_bodies(Memory &memory, const std::vector<uint32_t> &order)
+{
+  const uint32_t n = memory.read<uint32_t>(Buffer::counts, 1, COUNT_MOVED).front();
+  std::vector<uint32_t> bodies = memory.read<uint32_t>(Buffer::moved_body, n);
+  for (uint32_t &body : bodies) body = order[body];
+  std::sort(bodies.begin(), bodies.end());
+  return bodies;
 }
 
 std::vector<PairEvent> download_pair_events(Memory &memory, const std::vector<uint32_t> &order)

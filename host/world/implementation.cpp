@@ -52,8 +52,8 @@ World::Implementation::Beginning World::Implementation::beginning_of(const Scene
 {
   const auto bodies = static_cast<uint32_t>(given.bodies.size());
   const uint32_t pairs = first_capacity(given, chosen);
-  return {given,  resolved(chosen, given, placement), specialise(given, chosen), BodySlots(bodies),
-          bodies, pairs,                              false};
+  return {given, resolved(chosen, given, placement), specialise(given, chosen), BodySlots(bodies), bodies, pairs,
+          false};
 }
 
 World::Implementation::Implementation(const Scene &given, const Settings &chosen, const Placement &placement)
@@ -61,12 +61,10 @@ World::Implementation::Implementation(const Scene &given, const Settings &chosen
 {}
 
 World::Implementation::Implementation(Beginning beginning, const Placement &placement, const PlacedBackends *shared)
-    : scene(std::move(beginning.scene)), settings(std::move(beginning.settings)),
-      special(std::move(beginning.special)), hulls(hull_sizes(scene, cube_map_cells(settings))),
-      trees(tree_tables(scene)), scene_features(special.features),
+    : scene(std::move(beginning.scene)), settings(std::move(beginning.settings)), special(std::move(beginning.special)),
+      hulls(hull_sizes(scene, cube_map_cells(settings))), trees(tree_tables(scene)), scene_features(special.features),
       backends(shared ? PlacedBackends(*shared, features_run()) : PlacedBackends(placement, features_run())),
-      buffers(memory, backends),
-      slots(std::move(beginning.slots)),
+      buffers(memory, backends), slots(std::move(beginning.slots)),
       launcher(memory, [this](Kernel kernel) -> Backend & { return backends.of(kernel); })
 {
   launcher.set_on_commit([this] { turn(); });

@@ -163,6 +163,7 @@ struct World::Implementation {
   {
     return order_of_events.empty() ? special.order : order_of_events;
   }
+  std::vector<uint32_t> moved_bodies();
   BodyRegion region_of(uint32_t index) const;
   std::vector<BodyId> create(std::span<const Body> bodies);
   void destroy(std::span<const BodyId> ids);
@@ -235,19 +236,21 @@ struct World::Implementation {
   bool whole = true;   /* the last step succeeded; after one that failed there are no events or figures */
   /* Bodies that an unfinished step has quarantined, by their index in the buffers, with their earlier records. */
   std::vector<std::pair<uint32_t, BodyRecord>> taken_out;
-  std::vector<uint32_t> index_of_body; /* by slot; for a free one, that of its last body */
+  std::vector<uint32_t> index_of_body;   /* by slot; for a free one, that of its last body */
   std::vector<uint32_t> order_of_events; /* the order that the last step had, if it has changed since; else empty */
+  /* What the last step has moved, if the buffers were laid out anew since. */
+  std::optional<std::vector<uint32_t>> moved_before;
   size_t uploaded_shapes = 0, uploaded_materials = 0; /* of the scene, that the tables hold */
   /* Kinds of bodies that were in the scene together when its features were last derived; filled by the first call that
    * creates or changes some. */
   std::set<BodyKind> known_kinds;
-  CommandList commands, force_commands;               /* not applied yet */
+  CommandList commands, force_commands; /* not applied yet */
   Sleepers sleepers;
   std::vector<SleepEvent> sleep_events, sleep_events_to_come; /* of the last step, and since it ended */
-  std::vector<uint32_t> set_elsewhere; /* slots of the bodies that commands not applied yet put elsewhere */
+  std::vector<uint32_t> set_elsewhere;  /* slots of the bodies that commands not applied yet put elsewhere */
   std::set<uint32_t> moving_kinematics; /* slots */
   uint32_t awake_dynamics = 0;
-  bool pairs_moved = false; /* cached pairs have other places than the pairs of the last step */
+  bool pairs_moved = false;    /* cached pairs have other places than the pairs of the last step */
   uint32_t counted_bodies = 0; /* that kernels see: those awake, or for queries all */
   uint64_t quiet_state = 0;    /* the state that the last step left */
   std::vector<Quarantine> quarantined;

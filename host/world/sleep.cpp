@@ -34,16 +34,14 @@ size_t words_of(Buffer buffer)
 }
 
 /* What a pair remembers without regard to which of its bodies is the first. */
-bool is_symmetric(Buffer buffer)
-{
-  return buffer == Buffer::cached_color || buffer == Buffer::cached_touching;
-}
+bool is_symmetric(Buffer buffer) { return buffer == Buffer::cached_color || buffer == Buffer::cached_touching; }
 
 /* The buffers of the scene and of modules that have a row for each body. */
 bool follows_bodies(Buffer buffer)
 {
   const BufferRow &row = row_of(buffer);
-  const bool kept = row.lifetime == Lifetime::SCENE || (row.lifetime == Lifetime::KEPT && index_of(buffer) >= buffer_count);
+  const bool kept =
+      row.lifetime == Lifetime::SCENE || (row.lifetime == Lifetime::KEPT && index_of(buffer) >= buffer_count);
   return kept && (row.capacity == Capacity::BODIES || row.capacity == Capacity::SHAPES);
 }
 
@@ -60,7 +58,8 @@ std::vector<BodyRows> World::Implementation::body_rows(const std::vector<bool> &
 {
   std::vector<BodyRows> rows;
   for (size_t i = 0; i < touched.size(); ++i)
-    if (is_filled(touched, buffer_at(i)) && follows_bodies(buffer_at(i))) rows.push_back({buffer_at(i), {buffer_at(i)}});
+    if (is_filled(touched, buffer_at(i)) && follows_bodies(buffer_at(i)))
+      rows.push_back({buffer_at(i), {buffer_at(i)}});
   for (const CarriedBuffer &carried : buffers.carried())
     if (is_filled(touched, carried.now) && row_of(carried.now).capacity == Capacity::BODIES)
       rows.push_back({carried.now, {carried.now, carried.previous}});
@@ -164,7 +163,8 @@ void World::Implementation::recount_motion()
 
 void World::Implementation::keep_order_of_events()
 {
-  if (order_of_events.empty() && (settings.events || settings.pair_events)) order_of_events = special.order;
+  const bool listed = settings.events || settings.pair_events || settings.moved_bodies;
+  if (order_of_events.empty() && listed) order_of_events = special.order;
 }
 
 namespace {
@@ -208,7 +208,8 @@ void World::Implementation::put_to_sleep()
   sleepers_changed();
 }
 
-/* Reorders the host's tables as the kernels have reordered the buffers, and takes the pairs of those who fell asleep. */
+/* Reorders the tables of the host as the kernels have reordered the buffers, and takes the pairs of those who fell
+ * asleep. */
 void World::Implementation::take_fallen(const std::vector<uint32_t> &falls, const std::vector<uint32_t> &labels)
 {
   const uint32_t before = special.awake;
@@ -315,8 +316,9 @@ void World::Implementation::return_pairs(const std::vector<SleepingIsland> &isla
     for (const ReturningPair &one : pairs) {
       if (rows.now == Buffer::cached_b) values.push_back(one.b);
       else if (one.turned && !is_symmetric(rows.now)) values.insert(values.end(), words, 0u);
-      else values.insert(values.end(), one.words->begin() + static_cast<ptrdiff_t>(at),
-                         one.words->begin() + static_cast<ptrdiff_t>(at + words));
+      else
+        values.insert(values.end(), one.words->begin() + static_cast<ptrdiff_t>(at),
+                      one.words->begin() + static_cast<ptrdiff_t>(at + words));
     }
     at += words;
     if (!values.empty())

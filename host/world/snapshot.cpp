@@ -188,8 +188,7 @@ void check_islands(const ByteReader &reader, const SnapshotContents &contents)
   size_t found = 0;
   for (const SleepingIsland &island : contents.islands) {
     for (const uint32_t slot : island.bodies) {
-      const bool fits = slot < order.size() && !asleep[slot] &&
-                        contents.scene.bodies[slot].type == BodyType::dynamic &&
+      const bool fits = slot < order.size() && !asleep[slot] && contents.scene.bodies[slot].type == BodyType::dynamic &&
                         contents.slots.status()[slot] == BodyStatus::present;
       if (!fits) reader.fail("an island that sleeps has a body that cannot, or has it twice");
       asleep[slot] = true;
@@ -363,7 +362,8 @@ void World::Implementation::put_buffers(ByteWriter &writer)
   std::vector<std::pair<Buffer, size_t>> saved;
   for (const CarriedBuffer &carried : buffers.carried())
     if (memory.bytes(carried.now) > 0)
-      saved.emplace_back(carried.now, items_in_use(memory, carried.now, {bodies(), special.awake}, pairs) * item_bytes(carried.now));
+      saved.emplace_back(carried.now,
+                         items_in_use(memory, carried.now, {bodies(), special.awake}, pairs) * item_bytes(carried.now));
   for (size_t i = buffer_count; i < buffers.needs().touched.size(); ++i)
     if (is_saved(buffer_at(i))) saved.emplace_back(buffer_at(i), memory.bytes(buffer_at(i)));
   size_t total = 0;
@@ -443,7 +443,8 @@ void World::Implementation::take_buffers(const SnapshotContents &contents)
     else memory.upload(buffer, bytes.data(), bytes.size());
   }
   for (const CarriedBuffer &carried : buffers.carried()) /* steps leave the rows of sleepers on both sides */
-    if (row_of(carried.now).capacity == Capacity::BODIES && !contents.islands.empty() && memory.bytes(carried.now) > 0) {
+    if (row_of(carried.now).capacity == Capacity::BODIES && !contents.islands.empty() &&
+        memory.bytes(carried.now) > 0) {
       const auto rows = memory.read<std::byte>(carried.now, bodies() * item_bytes(carried.now));
       memory.upload(carried.previous, rows.data(), rows.size());
     }

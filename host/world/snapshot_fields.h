@@ -46,19 +46,21 @@ template <Is<Body> T> auto fields_of(T &record)
          max_angular_speed, user_data] = record;
   return std::tie(name, type, trigger, shape, material, position, orientation, shape_position, shape_orientation,
                   linear_velocity, angular_velocity, mass, inertia, infinite_inertia, gravity_factor, linear_damping,
-                  angular_damping, filter_group, filter_mask, continuous, linear_locks, angular_locks,
-                  max_linear_speed, max_angular_speed, user_data);
+                  angular_damping, filter_group, filter_mask, continuous, linear_locks, angular_locks, max_linear_speed,
+                  max_angular_speed, user_data);
 }
 
 /* Extensions are functions of the program; snapshots name their modules. */
 template <Is<Settings> T> auto fields_of(T &record)
 {
   auto &[step, substeps, iterations, solver, broadphase, bounds, midphase, narrowphase, support, support_cells,
-         batching, check, events, pair_events, sleeping, sleep_speed, sleep_time, max_pairs, specialise, extensions, contact_hertz, contact_damping_ratio,
-         push_speed, slop, slop_share, restitution_speed] = record;
+         batching, check, events, pair_events, sleeping, sleep_speed, sleep_time, moved_bodies, max_pairs, specialise,
+         extensions, contact_hertz, contact_damping_ratio, push_speed, slop, slop_share, restitution_speed, hit_speed] =
+      record;
   return std::tie(step, substeps, iterations, solver, broadphase, bounds, midphase, narrowphase, support, support_cells,
-                  batching, check, events, pair_events, sleeping, sleep_speed, sleep_time, max_pairs, specialise, contact_hertz, contact_damping_ratio,
-                  push_speed, slop, slop_share, restitution_speed);
+                  batching, check, events, pair_events, sleeping, sleep_speed, sleep_time, moved_bodies, max_pairs,
+                  specialise, contact_hertz, contact_damping_ratio, push_speed, slop, slop_share, restitution_speed,
+                  hit_speed);
 }
 
 template <Is<HullPlane> T> auto fields_of(T &record)

@@ -190,8 +190,7 @@ void World::Implementation::stage_roster(StagedUploads &uploads, const KeptState
     if (changes[k].tree && changes[k].slot < state.bodies)
       uploads.add(Buffer::body_tree, std::vector<uint32_t>(changes[k].tree->begin(), changes[k].tree->end()),
                   index_of_body[changes[k].slot]);
-  for (const auto &[entry, value] : entries_then(state))
-    uploads.add_count(static_cast<uint32_t>(entry), value);
+  for (const auto &[entry, value] : entries_then(state)) uploads.add_count(static_cast<uint32_t>(entry), value);
 }
 
 /* Nothing here can fail. */

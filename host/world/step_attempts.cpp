@@ -155,6 +155,7 @@ void World::Implementation::accept()
   turned = false;
   taken_out.clear();
   order_of_events.clear();
+  moved_before.reset();
   ++statistics.steps;
   cached_pairs = plan.known[COUNT_PAIRS];
   pairs_moved = false;

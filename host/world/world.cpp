@@ -172,8 +172,8 @@ std::vector<PreciseBodyState> World::precise_bodies()
 void World::set_body(uint32_t body, const BodyState &state)
 {
   if (!implementation_->slots.exists(body))
-    throw InputError(fmt::format("set_body: body {} does not exist; the scene has {}", body,
-                                 implementation_->slots.existing()));
+    throw InputError(
+        fmt::format("set_body: body {} does not exist; the scene has {}", body, implementation_->slots.existing()));
   if (!is_finite(state)) throw InputError(fmt::format("set_body: body {} would not be finite", body));
   set_body_unchecked(body, state);
 }
@@ -194,8 +194,8 @@ void World::set_body_unchecked(uint32_t body, const BodyState &state)
 BodyId World::id_of(uint32_t body) const
 {
   if (!implementation_->slots.exists(body))
-    throw InputError(fmt::format("id_of: body {} does not exist; the world has {}", body,
-                                 implementation_->slots.existing()));
+    throw InputError(
+        fmt::format("id_of: body {} does not exist; the world has {}", body, implementation_->slots.existing()));
   return implementation_->slots.id_of(body);
 }
 
@@ -352,8 +352,8 @@ size_t World::buffer_bytes(Buffer buffer) const
 void World::read_bytes(Buffer buffer, void *to, size_t bytes)
 {
   if (bytes > buffer_bytes(buffer))
-    throw InputError(fmt::format("read: buffer '{}' has {} bytes here, not {}", row_of(buffer).name,
-                                 buffer_bytes(buffer), bytes));
+    throw InputError(
+        fmt::format("read: buffer '{}' has {} bytes here, not {}", row_of(buffer).name, buffer_bytes(buffer), bytes));
   answer("a buffer", implementation_->slots.existing(), [&] { implementation_->memory.download(buffer, to, bytes); });
 }
 
@@ -388,6 +388,24 @@ std::vector<ContactEvent> World::contact_events()
   return answer("the contact events", implementation_->slots.existing(), [&] {
     return download_events(implementation_->memory, implementation_->scene, implementation_->events_order());
   });
+}
+
+std::vector<HitEvent> World::hit_events()
+{
+  if (!implementation_->settings.events) throw InputError("hit_events: there are none without Settings::events");
+  if (!implementation_->whole || implementation_->idle) return {};
+  return answer("the hit events", implementation_->slots.existing(), [&] {
+    return hits_among(download_events(implementation_->memory, implementation_->scene, implementation_->events_order()),
+                      implementation_->settings.hit_speed);
+  });
+}
+
+std::vector<uint32_t> World::moved_bodies()
+{
+  if (!implementation_->settings.moved_bodies)
+    throw InputError("moved_bodies: there are none without Settings::moved_bodies");
+  if (!implementation_->whole) return {};
+  return answer("the moved bodies", implementation_->slots.existing(), [&] { return implementation_->moved_bodies(); });
 }
 
 std::vector<PairEvent> World::pair_events()

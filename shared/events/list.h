@@ -106,8 +106,19 @@ SHARED vec3 middle_of_contact(const contact_sum *sum)
   return sum->points > 0u ? scale(sum->overlapped, R(1.0) / to_real(sum->points)) : make_vec3(R(0.0), R(0.0), R(0.0));
 }
 
+/* The speed at which the two bodies approach each other at the contact as the step starts, 0 if they part. arm: from
+ * the centre of a to the contact. */
+SHARED real approach_speed(GLOBAL const float4 *body_position, GLOBAL const float4 *body_velocity, uint a, uint b,
+                           vec3 arm, vec3 normal)
+{
+  vec3 arm_b = subtract(arm, offset_between(body_position, a, b));
+  vec3 velocity_a = velocity_at(load_velocity(body_velocity, a), arm),
+       velocity_b = velocity_at(load_velocity(body_velocity, b), arm_b);
+  return maximum(dot3(normal, subtract(velocity_a, velocity_b)), R(0.0));
+}
+
 SHARED void store_event(GLOBAL uint *event_bodies, GLOBAL float4 *event_contact, uint at, uint a, pair_change change,
-                        const contact_sum *sum, double_float3 where)
+                        const contact_sum *sum, double_float3 where, real approach)
 {
   real separation = sum->points > 0u ? sum->deepest : R(0.0);
   event_bodies[4u * at] = change.kind;
@@ -116,7 +127,7 @@ SHARED void store_event(GLOBAL uint *event_bodies, GLOBAL float4 *event_contact,
   event_bodies[4u * at + 3u] = sum->points;
   store_float4(event_contact, 3u * at, extend(where.high, sum->impulse));
   store_float4(event_contact, 3u * at + 1u, extend(where.low, separation));
-  store_float4(event_contact, 3u * at + 2u, extend(sum->normal, R(0.0)));
+  store_float4(event_contact, 3u * at + 2u, extend(sum->normal, approach));
 }
 
 /* Points are at the poses at which they were found, at the start of the step or at the impact within it, because
@@ -136,13 +147,16 @@ SHARED void write_events_item(read_touching_pairs touching_pairs, GLOBAL const u
     if (change.kind == (uint)EVENT_NONE) continue;
     contact_sum sum = {none, none, none, R(0.0), R(0.0), UNBOUNDED, 0u};
     double_float3 where = {none, none};
+    real approach = R(0.0);
     if (change.kind != (uint)EVENT_END) {
       for (uint pair = change.first; pair < change.end; ++pair)
         add_manifold(&sum, load_velocity(body_velocity, a).linear, manifolds, counts[CAPACITY_PAIRS], pair,
                      impulse_of_pair(pair_color, pair_impulse, pair));
-      where = moved_position(load_position(body_position, a), middle_of_contact(&sum));
+      vec3 arm = middle_of_contact(&sum);
+      where = moved_position(load_position(body_position, a), arm);
+      approach = approach_speed(body_position, body_velocity, a, change.b, arm, sum.normal);
     }
-    store_event(event_bodies, event_contact, at++, a, change, &sum, where);
+    store_event(event_bodies, event_contact, at++, a, change, &sum, where, approach);
   }
 }
 

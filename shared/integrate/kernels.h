@@ -8,6 +8,7 @@
 #include "shared/integrate/clamp_speeds.h"
 #include "shared/integrate/commit.h"
 #include "shared/integrate/lock_bodies.h"
+#include "shared/integrate/note_moved.h"
 #include "shared/integrate/positions.h"
 #include "shared/integrate/prepare.h"
 #include "shared/integrate/stop_at_time_of_impact.h"

@@ -1,5 +1,5 @@
-/* rows.h - moves whole rows of buffers: gathers listed rows to the start of another buffer, and scatters rows from there
- * to listed places. Rows that change places within a buffer are gathered first and scattered then, so that none is
+/* rows.h - moves whole rows of buffers: gathers listed rows to the start of another buffer, and scatters rows from
+ * there to listed places. Rows that change places within a buffer are gathered first and scattered then, so that none is
  * overwritten before it is read. */
 #ifndef TANDEM_SHARED_PARALLEL_ROWS_H
 #define TANDEM_SHARED_PARALLEL_ROWS_H
@@ -35,7 +35,8 @@ SHARED void scatter_uints_item(GLOBAL const uint *values, GLOBAL const uint *to,
 SHARED void gather_reals_item(GLOBAL const memory_real *values, GLOBAL const uint *from, GLOBAL memory_real *result,
                               uint per_item, uint first, uint count, uint i)
 {
-  for (uint k = 0u; k < count; ++k) store_real(result, i * count + k, load_real(values, from[i] * per_item + first + k));
+  for (uint k = 0u; k < count; ++k)
+    store_real(result, i * count + k, load_real(values, from[i] * per_item + first + k));
 }
 SHARED void scatter_reals_item(GLOBAL const memory_real *values, GLOBAL const uint *to, GLOBAL memory_real *result,
                                uint per_item, uint first, uint count, uint i)

@@ -10,9 +10,9 @@
  *   hook_islands   each contact sets the next label of the higher of its two labels to the lower one, by a minimum
  *   jump_islands   each body takes the next label of its next label
  *
- * Minima of integers do not depend on order, and each kernel reads what the other one wrote, so every round has the same
- * bits on every backend. A round that changes nothing is the last; if there was none, the step runs again with more
- * rounds.
+ * Minima of integers do not depend on order, and each kernel reads what the other one wrote, so every round has the
+ * same bits on every backend. A round that changes nothing is the last; if there was none, the step runs again with
+ * more rounds.
  *
  * An island stays awake if one of its bodies is not drowsy or touches a kinematic body that moves.
  */
@@ -41,8 +41,8 @@ SHARED void hook_islands_item(GLOBAL const uint *constraint_a, GLOBAL const uint
 }
 
 /* The next label of a body may be older than its label, and both are labels of its island; the lower one counts. */
-SHARED void jump_islands_item(GLOBAL const uint *island_next, GLOBAL uint *island_label, GLOBAL uint *counts, uint round,
-                              uint i)
+SHARED void jump_islands_item(GLOBAL const uint *island_next, GLOBAL uint *island_label, GLOBAL uint *counts,
+                              uint round, uint i)
 {
   uint label = island_label[i], lowest = island_next[i] < label ? island_next[i] : label, next = island_next[lowest];
   uint jumped = next < lowest ? next : lowest;
@@ -85,7 +85,8 @@ SHARED void keep_carried_awake_item(GLOBAL const uint *constraint_a, GLOBAL cons
 }
 
 SHARED void choose_sleepers_item(GLOBAL const uint *body_flags, GLOBAL const uint *island_label,
-                                 GLOBAL const uint *island_awake, GLOBAL uint *falls_asleep, GLOBAL uint *counts, uint i)
+                                 GLOBAL const uint *island_awake, GLOBAL uint *falls_asleep, GLOBAL uint *counts,
+                                 uint i)
 {
   uint falls = is_dynamic(body_flags, i) && !island_awake[island_label[i]] ? 1u : 0u;
   falls_asleep[i] = falls;

@@ -66,9 +66,10 @@ SHARED void sleeper_keys_item(GLOBAL const Parameters *parameters, GLOBAL const 
   box_bounds box = load_bounds(bounds, i);
   vec3 center = scale(add(box.lower, box.upper), R(0.5));
   real reach = reach_of_sleepers(counts);
-  sort_key[place] = is_large_sleeper(parameters, box)
-                        ? LARGE_SLEEPER
-                        : key_of_cell(cell_along(center.x, reach), cell_along(center.y, reach), cell_along(center.z, reach));
+  sort_key[place] =
+      is_large_sleeper(parameters, box)
+          ? LARGE_SLEEPER
+          : key_of_cell(cell_along(center.x, reach), cell_along(center.y, reach), cell_along(center.z, reach));
   sort_value[place] = i;
 }
 
@@ -145,8 +146,7 @@ SHARED void near_sleepers_count_item(GLOBAL const Parameters *parameters, GLOBAL
   sleeper_list sleepers = {table, counts[COUNT_SLEEPERS]};
   find_list list = no_neighbors();
   pair_search search = search_of_body(parameters, body_flags, body_filter, bounds, i);
-  pair_start[i] =
-      may_wake(body_flags, body_velocity, i) ? find_sleepers(&search, &sleepers, counts, &list, 0u) : 0u;
+  pair_start[i] = may_wake(body_flags, body_velocity, i) ? find_sleepers(&search, &sleepers, counts, &list, 0u) : 0u;
 }
 
 /* A sleeper has a higher index than any body that is awake, so it owns the pair. */

@@ -45,7 +45,8 @@ private:
   const CLI::Option *steps_option_ = nullptr;
   std::string scene_, on_ = "tbb", place_, steps_ = "120", step_, substeps_, iterations_;
   std::string solver_, broadphase_, bounds_, midphase_, narrowphase_, support_, support_cells_, batching_, max_pairs_;
-  bool no_specialise_ = false, sleep_ = false, inexact_ = false, check_ = false, events_ = false, outside_files_ = false;
+  bool no_specialise_ = false, sleep_ = false, inexact_ = false, check_ = false, events_ = false,
+       outside_files_ = false;
 };
 
 } // namespace tandem

@@ -1,6 +1,6 @@
-/* events.h - what a step reports: pairs whose contact or overlap of bounds begins or ends, faults of the batcher, and
- * bodies that stopped being finite. World::contact_events, pair_events, batch_fault and quarantined return these
- * records. */
+/* events.h - what a step reports: pairs whose contact or overlap of bounds begins or ends, hits, faults of the batcher,
+ * and bodies that stopped being finite. World::contact_events, hit_events, pair_events, batch_fault and quarantined
+ * return these records. */
 #pragma once
 
 #include <array>
@@ -44,8 +44,17 @@ struct ContactEvent {
   Point point; /* world position, at the start of the step or where the two met within it: the centre of the impulses,
                   or the mean of the points if there are none */
   Vec3 normal; /* unit, from a to b; of several parts, that of the part with the largest impulse */
+  float approach_speed; /* m/s, along the normal at the point, as the step starts; 0 if the two part */
 };
 TANDEM_API const char *name_of(ContactEvent::Kind kind); /* "begin", "persist", "end" */
+
+/* A contact of two solids that begins faster than Settings::hit_speed: something for sounds and damage. */
+struct HitEvent {
+  uint32_t a, b;        /* indices into Scene::bodies, a < b */
+  Point point;          /* as that of ContactEvent */
+  Vec3 normal;          /* unit, from a to b */
+  float approach_speed; /* m/s */
+};
 
 /* Two bodies whose bounds overlapped in the last step, or in the one before it; in scenes with meshes and compounds,
  * the bounds of some of their parts. `begin` means that they did not overlap before, `end` that they do no longer. A

@@ -71,9 +71,10 @@ struct Settings {
   bool pair_events =
       false; /* lists pairs whose bounds begin, continue and cease to overlap (World::pair_events); changes no motion */
   bool sleeping = false;     /* islands of bodies at rest fall asleep and cost nothing (docs/worlds.md) */
-  float sleep_speed = 0.05f; /* m/s, > 0: a body rests while no point of it is faster; smaller bodies than 0.5 m in radius
-                                in proportion */
+  float sleep_speed = 0.05f; /* m/s, > 0: a body rests while no point of it is faster; bodies smaller than 0.5 m in
+                                radius in proportion */
   float sleep_time = 0.5f;   /* s, > 0: bodies that have rested for so long fall asleep with their island */
+  bool moved_bodies = false; /* lists the bodies that each step moves (World::moved_bodies); changes no motion */
   uint32_t max_pairs =
       most_pairs;         /* 1 .. most_pairs: a step with more pairs fails, so memory never grows beyond them */
   bool specialise = true; /* false: every feature is built and run, with the same bits */
@@ -86,6 +87,7 @@ struct Settings {
   float slop = 0.005f;                 /* m, penetration left in place so that contacts persist */
   float slop_share = 0.05f;            /* of the smallest half extent of a pair: an upper limit of its slop */
   float restitution_speed = 1.0f;      /* m/s, slower impacts have no restitution */
+  float hit_speed = 1.0f;              /* m/s, >= 0: contacts that begin slower are no hits (World::hit_events) */
 };
 
 /* The defaults with the substeps and iterations that suit this solver. */

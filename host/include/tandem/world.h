@@ -160,7 +160,7 @@ public:
   BodyId id_of(uint32_t body) const;
   bool exists(const BodyId &id) const;
   std::vector<BodyId> body_ids() const; /* of all bodies that exist, in the order of their indices */
-  uint32_t body_count() const; /* of the bodies that exist */
+  uint32_t body_count() const;          /* of the bodies that exist */
 
   /* Adds bodies of the shapes and materials of scene(), as they are in it now. What they need is checked as validate()
    * does. Returns their handles in the same order. */
@@ -212,13 +212,13 @@ public:
   /* The body as it is in scene(): with its present properties, and the pose and velocity that it was created with. */
   Body body_description(const BodyId &id) const;
 
-  /* Shapes of bodies. The shapes of a body are the children of its compound, in their order, or its only shape. An added
-   * one lies in the same frame as the others, that of Body::shape_position and shape_orientation; if the body is not a
-   * compound yet, it becomes one. The frame stays where it is in the world. If a dynamic body has no inertia of the
-   * user's (Body::inertia is 0), its mass follows at the density that it has, its position becomes the new centre of
-   * mass, and its velocity that of this point; other bodies keep all that. InputError: as compound_shape and validate()
-   * say; a half-space; the last shape of a body. Each call lays out the tables of shapes anew, so many changes should be
-   * one call. */
+  /* Shapes of bodies. The shapes of a body are the children of its compound, in their order, or its only shape. An
+   * added one lies in the same frame as the others, that of Body::shape_position and shape_orientation; if the body is
+   * not a compound yet, it becomes one. The frame stays where it is in the world. If a dynamic body has no inertia of
+   * the user's (Body::inertia is 0), its mass follows at the density that it has, its position becomes the new centre
+   * of mass, and its velocity that of this point; other bodies keep all that. InputError: as compound_shape and
+   * validate() say; a half-space; the last shape of a body. Each call lays out the tables of shapes anew, so many
+   * changes should be one call. */
   std::vector<ShapeId> add_shapes(std::span<const BodyId> ids, std::span<const Child> shapes);
   ShapeId add_shape_to(const BodyId &id, const Child &shape)
   {
@@ -251,8 +251,8 @@ public:
   void add_force(const BodyId &id, const Force &force) { add_forces(std::span(&id, 1), std::span(&force, 1)); }
 
   /* Bodies that touch each other fall asleep together when all of them have rested for Settings::sleep_time. They wake
-   * when a body that is awake touches one of them, when one of them is changed by a call, and when a body beside them is
-   * destroyed or set elsewhere. */
+   * when a body that is awake touches one of them, when one of them is changed by a call, and when a body beside them
+   * is destroyed or set elsewhere. Kept states are forgotten when bodies fall asleep or wake. */
   bool is_asleep(const BodyId &id) const;
   void wake_bodies(std::span<const BodyId> ids);
   void wake_body(const BodyId &id) { wake_bodies(std::span(&id, 1)); }
@@ -265,6 +265,12 @@ public:
   /* The events of the last step, sorted by (a, b); there are none before the first step. A step that ran again with
    * larger buffers reports them once. Throws InputError without Settings::events. */
   std::vector<ContactEvent> contact_events();
+  /* The contacts of the last step that began with an approach above Settings::hit_speed, sorted by (a, b). Throws
+   * InputError without Settings::events. */
+  std::vector<HitEvent> hit_events();
+  /* The bodies whose pose the last step has changed, as indices into Scene::bodies, ascending; calls between steps
+   * count in none. There are none before the first step. Throws InputError without Settings::moved_bodies. */
+  std::vector<uint32_t> moved_bodies();
   /* The events of the last step, sorted by (a, b); there are none before the first step. Throws InputError without
    * Settings::pair_events. */
   std::vector<PairEvent> pair_events();

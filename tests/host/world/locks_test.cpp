@@ -277,3 +277,31 @@ TEST_CASE("highest speeds that cannot be are refused, and user data is kept", "[
   CHECK(world.scene().bodies[0].user_data == UINT64_MAX - 1);
   CHECK(world.features() == World(scene, {}, {"serial", {}}).features());
 }
+
+TEST_CASE("going back to a state takes the locks of its bodies with it", "[sanitizer]")
+{
+  Scene scene = weightless();
+  scene.bodies = {body_at({0, 0, 0}), body_at({9, 0, 0})};
+  for (Body &body : scene.bodies) {
+    body.linear_velocity = {1, 0, 1};
+    body.linear_locks = only_z;
+    body.max_linear_speed = 0.5f;
+  }
+  World world(scene, {}, {"serial", {}});
+  world.keep_states(8);
+  world.step();
+  const std::vector<BodyState> before = world.bodies();
+  const uint64_t hash = world.state_hash();
+  world.destroy_body(world.id_of(1));
+  world.step();
+  Body free = body_at({9, 5, 0});
+  free.linear_velocity = {0, 0, 1};
+  REQUIRE(world.create_body(free).index == 1);
+  world.step();
+  CHECK(world.bodies()[1].position[2] > 0);
+  world.go_back(2);
+  REQUIRE(world.state_hash() == hash);
+  run(world, 60);
+  CHECK(world.bodies()[1].position[2] == before[1].position[2]);
+  CHECK(world.bodies()[1].position[0] == Approx(before[1].position[0] + 0.5).margin(1e-4));
+}

@@ -145,7 +145,7 @@ TEST_CASE("an impulse wakes the island of its body alone, and acts as on a body 
   World world(floor_with_boxes(columns(3)), sleepy(), {"serial", {}});
   wait_for_sleep(world, 9);
   world.add_impulse(world.id_of(6), {{0, 5, 0}}); /* the top of the second column; 5 m/s */
-  CHECK(world.statistics().asleep == 6);         /* the figures apply the call */
+  CHECK(world.statistics().asleep == 6);          /* the figures apply the call */
   CHECK(world.read_body(world.id_of(6)).linear_velocity == Vec3{0, 5, 0});
   world.step();
   CHECK(awake_bodies(world) == std::set<uint32_t>{4, 5, 6});
@@ -191,7 +191,8 @@ TEST_CASE("a ball that falls on one of several sleeping heaps wakes that heap al
   CHECK(world.read_body(ball).position[1] > 2.9); /* it came to lie on the column */
 }
 
-TEST_CASE("a ball that passes a sleeping box by a centimetre does not wake it, and one that grazes it does", "[sanitizer]")
+TEST_CASE("a ball that passes a sleeping box by a centimetre does not wake it, and one that grazes it does",
+          "[sanitizer]")
 {
   for (const bool touches : {false, true}) {
     Scene scene = floor_with_boxes({{0, 0.5, 0}});
@@ -293,7 +294,8 @@ TEST_CASE("a column wakes warm: it neither sinks nor jumps, and its contacts go 
 TEST_CASE("poses agree with those of a world that never sleeps where nothing would have moved", "[sanitizer]")
 {
   Settings awake;
-  World without(floor_with_boxes(columns(5)), awake, {"serial", {}}), with(floor_with_boxes(columns(5)), sleepy(), {"serial", {}});
+  World without(floor_with_boxes(columns(5)), awake, {"serial", {}}),
+      with(floor_with_boxes(columns(5)), sleepy(), {"serial", {}});
   for (int k = 0; k < 600; ++k) without.step(), with.step();
   CHECK(with.statistics().asleep == 15);
   for (uint32_t body = 0; body < 16; ++body)

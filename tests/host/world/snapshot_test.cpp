@@ -370,7 +370,12 @@ TEST_CASE("every field of a body, a material and the settings is in a snapshot",
                   0.125f,
                   6,
                   7,
-                  true};
+                  true,
+                  {true, false, true},
+                  {false, true, false},
+                  8,
+                  9,
+                  10};
   CHECK(equal_fields(body, Body{}) == 0);
   CHECK(all_equal(copied(body), body));
   const Material material{"ice", 1, 2, 0.5f, Combine::maximum, Combine::minimum, 3, 4};
@@ -390,6 +395,7 @@ TEST_CASE("every field of a body, a material and the settings is in a snapshot",
                     true,
                     true,
                     true,
+                    true,
                     10,
                     false,
                     {},
@@ -398,7 +404,8 @@ TEST_CASE("every field of a body, a material and the settings is in a snapshot",
                     13,
                     14,
                     15,
-                    16};
+                    16,
+                    17};
   CHECK(equal_fields(settings, Settings{}) == 0);
   CHECK(all_equal(copied(settings), settings));
 }
