@@ -69,6 +69,17 @@ TEST_CASE("command: diff takes a recording as its scene", "[command]")
   check_refused("diff " + path + " --solver pgs", "settings of its own; leave out --solver pgs");
 }
 
+TEST_CASE("command: bench snapshots has the promised keys", "[command]")
+{
+  const Json json = json_of("bench snapshots --n 27 --on serial");
+  REQUIRE(json["worlds"].size() == 1);
+  const Json &world = json["worlds"][0];
+  check_keys(world, {"scene", "pairs", "keep_ms", "go_back_ms", "save_ms", "restore_ms", "save_gb_per_s"});
+  CHECK(world["bodies"] == 28);
+  CHECK(world["snapshot_bytes"].get<uint64_t>() > 28 * 80);
+  check_refused("bench snapshots --n 0", "--n");
+}
+
 TEST_CASE("command: recordings that cannot be read or written are refused in one line", "[command]")
 {
   const Scratch scratch;
