@@ -1,6 +1,6 @@
 /* rows.h - moves whole rows of buffers: gathers listed rows to the start of another buffer, and scatters rows from
- * there to listed places. Rows that change places within a buffer are gathered first and scattered then, so that none is
- * overwritten before it is read. */
+ * there to listed places. Rows that change places within a buffer are gathered first and scattered then, so that none
+ * is overwritten before it is read. */
 #ifndef TANDEM_SHARED_PARALLEL_ROWS_H
 #define TANDEM_SHARED_PARALLEL_ROWS_H
 
