@@ -401,6 +401,7 @@ void World::Implementation::lay_out_anew(const Arrival &arrival)
     uploads.add(Buffer::cached_normal, normals_of_pairs(memory, special.awake));
   std::vector<uint32_t> order_before = arrival.inserts() && order_of_events.empty() ? old_order : order_of_events;
   LayoutBackup backup(*this);
+  forget_kept(memory); /* their buffers get new sizes, and lose their contents, also where this fails later */
   plan_layout(arrival, std::move(order));
   slots.append(arrival.new_slots());
   for (size_t region = 0; region < regions; ++region)

@@ -280,6 +280,24 @@ TEST_CASE("heap: saving, restoring and going back change nothing where they fail
   }
 }
 
+/* What a broadphase keeps is in buffers that a new layout sizes anew. */
+TEST_CASE("heap: bodies that cannot be created for want of memory leave the next steps their bits")
+{
+  const Settings settings = short_step(with(Solver::soft_step, Broadphase::trees, true));
+  const Story story{load_scene("box-grid:nx=3,ny=3,nz=3"), settings, serial, 6};
+  const std::vector<uint64_t> undisturbed = undisturbed_hashes(story);
+  std::vector<Body> more(40, story.scene.bodies[1]);
+  for (size_t k = 0; k < more.size(); ++k) more[k].position = {100.0 + 3.0 * static_cast<double>(k), 50, 0};
+  for (uint64_t nth = 0;; nth += 29) {
+    CAPTURE(nth);
+    const std::unique_ptr<World> world = begun(story);
+    const Outcome outcome = attempt(nth, true, [&] { world->create_bodies(more); });
+    check_told(outcome);
+    if (!outcome.struck) break;
+    if (outcome.thrown) check_goes_on(*world, undisturbed, 0);
+  }
+}
+
 /* The islands of `direct` are solved by tasks of TBB, which allocate. */
 TEST_CASE("heap: what fails in a task of another thread reaches who asked for the step", "[sanitizer]")
 {
