@@ -236,8 +236,8 @@ std::vector<BodyId> World::Implementation::create(std::span<const Body> given)
   const Arrival arrival = arrival_of(given);
   std::vector<BodyId> ids(given.size());
   slots.prepare_growth(arrival.new_slots());
-  index_of_body.reserve(slots.count() + arrival.new_slots());
-  special.order.reserve(bodies() + arrival.new_slots());
+  reserve_more(index_of_body, arrival.new_slots());
+  reserve_more(special.order, arrival.new_slots());
   std::vector<RosterChange> changes = changes_of(arrival);
   std::string reason = "bodies were created that the buffers had no room or no tables for";
   PlacedBodies added(scene, arrival.slots, given);
@@ -309,9 +309,9 @@ void World::Implementation::place_among_others(const Arrival &arrival)
   slots.append(appended.size());
   for (size_t region = 0; region < regions; ++region)
     slots.use_again(static_cast<BodyRegion>(region), arrival.again[region]);
-  keep_order_of_events();
+  if (!sleepers.empty()) keep_order_of_events(); /* they make room */
   special.order.insert(special.order.end(), appended.begin(), appended.end());
-  number_bodies();
+  for (const uint32_t slot : appended) index_of_body.push_back(bodies() - static_cast<uint32_t>(slots.count() - slot));
   for (const auto &[entry, value] : scene_entries) plan.known[static_cast<size_t>(entry)] = value;
   ++state;
   uploads.write(memory);

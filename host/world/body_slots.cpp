@@ -1,11 +1,11 @@
 /* body_slots.cpp - see body_slots.h. */
 #include "host/world/body_slots.h"
 
-#include <algorithm>
-
 #include <fmt/format.h>
 
 #include <tandem/error.h>
+
+#include "host/base/reserve_more.h"
 
 namespace tandem {
 namespace {
@@ -40,16 +40,13 @@ std::vector<uint32_t> BodySlots::usable(BodyRegion region, uint64_t steps, size_
 
 void BodySlots::prepare_growth(size_t bodies)
 {
-  slots_.reserve(slots_.size() + bodies);
-  status_.reserve(status_.size() + bodies);
+  reserve_more(slots_, bodies);
+  reserve_more(status_, bodies);
 }
 
-/* Reserving exactly what is needed would copy the queue at each call. */
 void BodySlots::prepare_freeing(BodyRegion region, size_t bodies)
 {
-  std::vector<Free> &queue = queues_[static_cast<size_t>(region)];
-  const size_t needed = queue.size() + bodies;
-  if (queue.capacity() < needed) queue.reserve(std::max(needed, 2 * queue.capacity()));
+  reserve_more(queues_[static_cast<size_t>(region)], bodies);
 }
 
 void BodySlots::use_again(BodyRegion region, size_t slots) noexcept

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "host/base/reserve_more.h"
 #include "shared/counts.h"
 
 namespace tandem {
@@ -18,11 +19,7 @@ template <class T> void upload_list(Memory &memory, Buffer buffer, const std::ve
 
 } // namespace
 
-void CommandList::prepare(size_t more)
-{
-  const size_t needed = commands_.size() + more;
-  if (commands_.capacity() < needed) commands_.reserve(std::max(needed, 2 * commands_.capacity()));
-}
+void CommandList::prepare(size_t more) { reserve_more(commands_, more); }
 
 /* Returns the number of bodies that have commands. */
 uint32_t CommandList::upload(const std::vector<uint32_t> &index_of_body, Memory &memory)

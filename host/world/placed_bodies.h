@@ -9,6 +9,8 @@
 
 #include <tandem/scene.h>
 
+#include "host/base/reserve_more.h"
+
 namespace tandem {
 
 class PlacedBodies {
@@ -18,7 +20,7 @@ public:
       : scene_(scene), count_(scene.bodies.size())
   {
     replaced_.reserve(bodies.size());
-    scene.bodies.reserve(count_ + bodies.size());
+    reserve_more(scene.bodies, bodies.size());
     for (size_t i = 0; i < bodies.size(); ++i) put(slots[i], bodies[i]);
   }
   ~PlacedBodies()

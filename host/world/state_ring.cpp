@@ -7,6 +7,7 @@
 
 #include <tandem/error.h>
 
+#include "host/base/reserve_more.h"
 #include "host/pipeline/broadphases/broadphase.h"
 #include "host/pipeline/scene_counts.h"
 #include "host/runtime/interface/floating_point.h"
@@ -63,8 +64,7 @@ std::shared_ptr<const BodySlots> StateRing::shared(const BodySlots &slots)
 void StateRing::prepare_changes(size_t more)
 {
   if (slots_.empty()) return;
-  const size_t needed = changes_.size() + more;
-  if (changes_.capacity() < needed) changes_.reserve(std::max(needed, 2 * changes_.capacity()));
+  reserve_more(changes_, more);
 }
 
 void StateRing::note(RosterChange change) noexcept
