@@ -12,6 +12,11 @@ endfunction()
 
 join_tests(watched_tests watched ".*")
 join_tests(lent_tests lent_worlds "host/(include|runtime|scene|world)/|physics/")
+# Each of these has names that its neighbours use for something else.
+foreach(name call_faults locks properties shapes snapshot state_ring)
+  join_tests(lent_tests lent_${name} "host/world/${name}_test")
+endforeach()
+join_tests(lent_tests lent_recording "host/world/recording_test")
 join_tests(lent_tests lent_geometry "host/geometry/")
 join_tests(lent_tests lent_files "host/io/|tools/")
 join_tests(lent_tests lent_parity "parity/")
@@ -30,6 +35,7 @@ join_tests(other_tests shared "shared/(broadphase|midphase|parallel)/")
 join_tests(other_tests narrowphase "shared/narrowphase/")
 join_tests(other_tests convex "shared/narrowphase/(conservative|convex|cube|gjk|hull|libccd)_")
 join_tests(other_tests tools "tools/(bench|command|diff|embed|plot)/")
+join_tests(other_tests recording_command "tools/command/recording_test")
 join_tests(other_tests stability "tools/stability/")
 # These compile what their neighbours have under the same names: shared/ in double, and its trees beside the host's.
 set_source_files_properties(shared/narrowphase/convex_reference_test.cpp shared/midphase/subtree_pairs_test.cpp

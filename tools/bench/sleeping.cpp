@@ -13,9 +13,9 @@ namespace tandem {
 namespace {
 
 constexpr uint32_t island_bodies = 40;
-constexpr int repetitions = 7, idle_steps = 201, most_steps = 600;
+constexpr int wakes = 7, idle_steps = 201, most_steps = 600;
 
-template <class Work> double time_of(World &world, const Work &work)
+template <class Work> double wait_for(World &world, const Work &work)
 {
   world.finish();
   const auto start = std::chrono::steady_clock::now();
@@ -54,7 +54,7 @@ std::vector<double> steps_until_asleep(World &world, uint64_t bodies)
     if (times.size() == most_steps)
       throw std::runtime_error(fmt::format("bench sleeping: {} of {} bodies sleep after {} steps",
                                            world.statistics().asleep, bodies, most_steps));
-    times.push_back(time_of(world, [&] { world.step(); }));
+    times.push_back(wait_for(world, [&] { world.step(); }));
   }
   return times;
 }
@@ -78,10 +78,10 @@ SleepTimes bench_sleeping(const std::string &backend, uint64_t bodies, bool allo
   world.step(); /* the first step compiles */
   times.awake = spread_or_none(steps_until_asleep(world, times.bodies));
   std::vector<double> asleep, island, wake, fall, read;
-  for (int k = 0; k < idle_steps; ++k) asleep.push_back(time_of(world, [&] { world.step(); }));
-  for (int k = 0; k < repetitions; ++k) {
-    wake.push_back(time_of(world, [&] { world.wake_body(world.id_of(1)); }));
-    read.push_back(time_of(world, [&] { world.read_body(world.id_of(1)); }));
+  for (int k = 0; k < idle_steps; ++k) asleep.push_back(wait_for(world, [&] { world.step(); }));
+  for (int k = 0; k < wakes; ++k) {
+    wake.push_back(wait_for(world, [&] { world.wake_body(world.id_of(1)); }));
+    read.push_back(wait_for(world, [&] { world.read_body(world.id_of(1)); }));
     std::vector<double> steps = steps_until_asleep(world, times.bodies);
     fall.push_back(steps.back());
     island.insert(island.end(), steps.begin() + 1, steps.end() - 1); /* the first one lists the sleepers anew */
