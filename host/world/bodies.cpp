@@ -381,7 +381,7 @@ void World::Implementation::stage_arrival(StagedUploads &uploads, const Arrival 
 
 std::vector<uint32_t> World::Implementation::moved_bodies()
 {
-  if (idle) return {};
+  if (idle || !whole) return {};
   return moved_before ? *moved_before : download_moved_bodies(memory, events_order());
 }
 

@@ -246,6 +246,11 @@ void World::Implementation::set_gravity(const Vec3 &gravity)
   const Parameters parameters = parameters_of(changed, settings, special.features, special.median);
   memory.upload(Buffer::parameters, &parameters, sizeof parameters);
   scene.gravity = gravity;
+  if (settings.sleeping) { /* a slow start is no rest */
+    const std::vector<uint32_t> none(special.awake);
+    memory.upload(Buffer::resting_steps, none.data(), none.size() * sizeof(uint32_t));
+  }
+  ring.forget("gravity was changed");
   ++state;
 }
 

@@ -40,8 +40,11 @@ void World::Implementation::write(Buffer buffer, const void *from, size_t bytes,
 {
   check_write(buffer, bytes, offset);
   settle(); /* not over what is written now */
-  if (!is_sized_by_writes(buffer) || offset > 0 || memory.bytes(buffer) == bytes)
+  if (!is_sized_by_writes(buffer) || offset > 0 || memory.bytes(buffer) == bytes) {
+    for (const CarriedBuffer &carried : buffers.carried()) /* steps leave the rows of sleepers on both sides */
+      if (carried.now == buffer && !sleepers.empty()) memory.upload(carried.previous, from, bytes, offset);
     return memory.upload(buffer, from, bytes, offset);
+  }
   memory.assign(buffer, from, bytes);
   buffers.changed();
 }

@@ -128,6 +128,7 @@ struct World::Implementation {
   void check_back(uint32_t states) const;
   std::vector<std::pair<int, uint32_t>> entries_then(const KeptState &state) const;
   void stage_roster(StagedUploads &uploads, const KeptState &state, std::span<const RosterChange> changes) const;
+  void forget_handles(std::span<const RosterChange> changes, const BodySlots &slots_then);
   void take_roster(const KeptState &state, BodySlots &slots_then) noexcept;
   void drop_forces();
   Storage &storage_of(Buffer buffer);

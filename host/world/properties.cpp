@@ -127,7 +127,7 @@ void World::Implementation::set_properties(std::span<const BodyId> ids, std::spa
   if (settings.sleeping) recount_motion();
   for (const uint32_t slot : changed.slots)
     if (slots.status()[slot] != BodyStatus::quarantined)
-      commands.add(index_of_body[slot], COMMAND_SET_MASS, mass_command_of(scene.bodies[slot]));
+      commands.add(slot, COMMAND_SET_MASS, mass_command_of(scene.bodies[slot]));
 }
 
 void World::Implementation::write_properties(std::span<const uint32_t> changed)

@@ -122,12 +122,13 @@ void World::Implementation::remove_shapes(std::span<const ShapeId> ids)
 }
 
 /* A place in the scene's list of shapes for the compound of a body: the one that it has, if it was made here for it
- * alone, or one whose body is gone, or a new one. */
+ * alone, or one that no body names any more, or a new one. A destroyed body names its shape until its index is used
+ * again, because the scene that a snapshot holds must be valid. */
 uint32_t World::Implementation::own_shape(uint32_t slot, const std::set<uint32_t> &taken)
 {
   std::set<uint32_t> used = taken;
   for (uint32_t other = 0; other < slots.count(); ++other)
-    if (other != slot && slots.exists(other)) used.insert(scene.bodies[other].shape);
+    if (other != slot) used.insert(scene.bodies[other].shape);
   const uint32_t present = scene.bodies[slot].shape;
   if (made_shapes.contains(present) && !used.contains(present)) return present;
   for (const uint32_t made : made_shapes)

@@ -155,10 +155,6 @@ void World::Implementation::recount_motion()
     const BodyState now = download_body(memory, index);
     note_motion(slot, {now.linear_velocity, now.angular_velocity});
   }
-  if (!settings.sleeping) return;
-  const uint32_t limit = parameters_of(scene, settings, special.features, special.median).sleep_steps;
-  const auto resting = memory.read<uint32_t>(Buffer::resting_steps, special.awake);
-  plan.drowsy = std::any_of(resting.begin(), resting.end(), [&](uint32_t steps) { return steps >= limit; });
 }
 
 void World::Implementation::keep_order_of_events()

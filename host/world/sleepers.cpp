@@ -55,14 +55,20 @@ SleepingIsland Sleepers::take(uint32_t number)
   return island;
 }
 
-/* The lists hold islands that have woken since, which are passed over. */
+/* The lists hold islands that have woken since, which are passed over. A pair of two islands is in one of them alone,
+ * which may be that of the body. */
 std::vector<uint32_t> Sleepers::beside(uint32_t slot) const
 {
   std::vector<uint32_t> found;
-  const auto at = partners_.find(slot);
-  if (at == partners_.end()) return found;
-  std::copy_if(at->second.begin(), at->second.end(), std::back_inserter(found),
-               [&](uint32_t island) { return islands_.contains(island); });
+  if (const auto at = partners_.find(slot); at != partners_.end())
+    std::copy_if(at->second.begin(), at->second.end(), std::back_inserter(found),
+                 [&](uint32_t island) { return islands_.contains(island); });
+  if (sleeps(slot))
+    for (const SleepingPair &pair : islands_.at(island_of(slot)).pairs) {
+      if (pair.a != slot && pair.b != slot) continue;
+      const uint32_t other = pair.a == slot ? pair.b : pair.a;
+      if (sleeps(other) && island_of(other) != island_of(slot)) found.push_back(island_of(other));
+    }
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;

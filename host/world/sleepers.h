@@ -39,7 +39,7 @@ public:
   const std::map<uint32_t, SleepingIsland> &all() const { return islands_; }
   bool sleeps(uint32_t slot) const { return island_of_.contains(slot); }
   uint32_t island_of(uint32_t slot) const { return island_of_.at(slot); }
-  /* Islands with a cached pair with this body, which may be awake, in ascending order. */
+  /* Other islands with a cached pair with this body, which may be awake, in ascending order. */
   std::vector<uint32_t> beside(uint32_t slot) const;
   /* The words of one buffer within those of a pair. */
   static constexpr size_t no_words = static_cast<size_t>(-1);

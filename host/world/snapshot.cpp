@@ -326,6 +326,7 @@ SnapshotContents read_snapshot(std::span<const std::byte> bytes, const std::stri
   check_islands(reader, contents);
   reader.get(contents.room);
   reader.get(contents.forces);
+  reader.get(contents.drowsy);
   reader.get(contents.steps);
   reader.get(contents.overflow);
   reader.get(contents.quarantined);
@@ -350,6 +351,7 @@ void World::Implementation::put_history(ByteWriter &writer) const
 {
   writer.put(plan.bodies);
   writer.put(plan.forces);
+  writer.put(plan.drowsy);
   writer.put(statistics.steps);
   writer.put(statistics.overflow);
   writer.put(quarantined);
@@ -466,6 +468,7 @@ void World::Implementation::take_islands(const SnapshotContents &contents)
   for (const SleepingIsland &island : contents.islands) sleepers.add(island);
   if (!sleepers.empty()) sleepers_changed();
   if (settings.sleeping) recount_motion();
+  plan.drowsy = contents.drowsy;
 }
 
 std::unique_ptr<World::Implementation> World::Implementation::restored(std::span<const std::byte> snapshot,

@@ -128,6 +128,7 @@ void World::Implementation::keep_state()
   state.bodies = bodies();
   state.pairs = cached_pairs;
   state.forces = plan.forces;
+  state.drowsy = plan.drowsy;
   state.changes = ring.changes();
   ring.commit();
 }
@@ -191,6 +192,14 @@ void World::Implementation::stage_roster(StagedUploads &uploads, const KeptState
       uploads.add(Buffer::body_tree, std::vector<uint32_t>(changes[k].tree->begin(), changes[k].tree->end()),
                   index_of_body[changes[k].slot]);
   for (const auto &[entry, value] : entries_then(state)) uploads.add_count(static_cast<uint32_t>(entry), value);
+}
+
+/* Handles of shapes of bodies that are not there any more, or that another body had in the meantime. */
+void World::Implementation::forget_handles(std::span<const RosterChange> changes, const BodySlots &slots_then)
+{
+  for (const auto &[slot, before, tree] : changes)
+    if (slot >= slots_then.count() || slots.slots()[slot].generation != slots_then.slots()[slot].generation)
+      shapes.forget(slot);
 }
 
 /* Nothing here can fail. */
@@ -258,6 +267,7 @@ void World::Implementation::go_back(uint32_t states)
     swap_bodies(scene, changes, false);
     throw;
   }
+  forget_handles(changes, slots_then);
   take_roster(then, slots_then);
   scene_entries.swap(entries);
   for (const auto &[entry, value] : scene_entries) plan.known[static_cast<size_t>(entry)] = value;
@@ -267,6 +277,7 @@ void World::Implementation::go_back(uint32_t states)
   ring.rewind(states);
   pairs_moved = true;
   set_elsewhere.clear();
+  plan.drowsy = then.drowsy;
   if (settings.sleeping) recount_motion();
 }
 

@@ -37,7 +37,7 @@ struct KeptState {
   std::optional<BatchFault> fault;
   size_t quarantined = 0, shapes = 0, materials = 0;
   uint32_t bodies = 0, pairs = 0;
-  bool forces = false;
+  bool forces = false, drowsy = false; /* of StepPlan */
   size_t changes = 0; /* of the roster, so far */
   std::shared_ptr<const BodySlots> slots;
 };

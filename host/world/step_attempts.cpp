@@ -95,8 +95,10 @@ void World::Implementation::undo(const Attempt &before) noexcept
   turn_back();
   launches_ended = whole = false;
   statistics = before.statistics;
-  for (size_t i = before.quarantined; i < quarantined.size(); ++i) slots.release(quarantined[i].body);
-  awake_dynamics += static_cast<uint32_t>(quarantined.size() - before.quarantined);
+  for (size_t i = before.quarantined; i < quarantined.size(); ++i) {
+    slots.release(quarantined[i].body);
+    if (scene.bodies[quarantined[i].body].type == BodyType::dynamic) ++awake_dynamics;
+  }
   quarantined.erase(quarantined.begin() + static_cast<ptrdiff_t>(before.quarantined), quarantined.end());
   const uint32_t capacity = plan.capacity_pairs;
   plan = before.plan;
@@ -250,7 +252,7 @@ void World::Implementation::quarantine(uint32_t index, uint32_t stage)
   taken_out.emplace_back(index, tandem::read_body(memory, index)); /* first, so that it can be restored */
   quarantine_body(memory, index);
   slots.quarantine(body);
-  --awake_dynamics; /* nothing else can stop being finite, as kinematic bodies have given velocities */
+  if (scene.bodies[body].type == BodyType::dynamic) --awake_dynamics; /* others may leave the range of numbers too */
   ring.note({body, std::nullopt, std::nullopt});
 }
 

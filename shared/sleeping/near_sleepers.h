@@ -25,7 +25,7 @@
 #define CELL_BITS 10u
 #define LARGE_SLEEPER (1u << (3u * CELL_BITS))
 /* More cells along an axis than this are not visited one by one. */
-#define MOST_CELLS 8
+#define MOST_CELLS 8u
 
 SHARED real larger_half_extent(box_bounds box)
 {
@@ -50,7 +50,7 @@ SHARED void measure_sleepers_item(GLOBAL const Parameters *parameters, GLOBAL co
 
 SHARED real reach_of_sleepers(GLOBAL const uint *counts) { return BITS_FLOAT(counts[COUNT_SLEEPER_REACH]); }
 
-/* The reach is positive, because all bounds have a margin. */
+/* The reach is 0 if all sleepers are large: the quotient is then infinite or no number, and floor_to_int takes it. */
 SHARED int cell_along(real x, real reach) { return floor_to_int(x / (R(2.0) * reach)); }
 
 SHARED uint key_of_cell(int x, int y, int z)
@@ -115,6 +115,9 @@ FORCE_INLINE uint find_in_cells(const pair_search *search, const sleeper_list *s
   return at;
 }
 
+/* Unsigned, because coordinates saturate at 2^30 and their difference may exceed an int. */
+SHARED mask covers_many_cells(int low, int high) { return (uint)high - (uint)low > MOST_CELLS; }
+
 /* A body that covers many cells, as a moving half-space does, is tested against all. */
 FORCE_INLINE uint find_sleepers(const pair_search *search, const sleeper_list *sleepers, GLOBAL const uint *counts,
                                 const find_list *list, uint at)
@@ -125,7 +128,7 @@ FORCE_INLINE uint find_sleepers(const pair_search *search, const sleeper_list *s
                 cell_along(lower.z - reach, reach)};
   int high[3] = {cell_along(upper.x + reach, reach), cell_along(upper.y + reach, reach),
                  cell_along(upper.z + reach, reach)};
-  if (high[0] - low[0] > MOST_CELLS || high[1] - low[1] > MOST_CELLS || high[2] - low[2] > MOST_CELLS)
+  if (covers_many_cells(low[0], high[0]) || covers_many_cells(low[1], high[1]) || covers_many_cells(low[2], high[2]))
     return find_among_sleepers(search, sleepers, 0u, sleepers->count, list, at);
   at = find_in_cells(search, sleepers, low, high, list, at);
   uint first = lower_bound_of(sleepers->table.key, sleepers->count, LARGE_SLEEPER);
