@@ -21,13 +21,22 @@ SHARED mask is_at_rest(GLOBAL const Parameters *parameters, spatial_velocity m, 
   return length_of(m.linear) + radius * length_of(m.angular) <= limit;
 }
 
+/* A body that nothing holds falls, however slowly it still moves: its support has just gone. */
+SHARED mask falls_freely(GLOBAL const Parameters *parameters, GLOBAL const uint *body_falls,
+                         GLOBAL const float4 *body_mass, uint body)
+{
+  real pull = load_float4(body_mass, body * 2u).w;
+  return body_falls[body] != 0u && length_squared(scale(gravity_of(parameters), pull)) > R(0.0);
+}
+
 /* resting_steps: up to the last step. rest_count: with this one. */
 SHARED void count_rest_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_flags,
-                            GLOBAL const float4 *body_shape, GLOBAL const float4 *solver_velocity,
+                            GLOBAL const float4 *body_shape, GLOBAL const float4 *body_mass,
+                            GLOBAL const uint *body_falls, GLOBAL const float4 *solver_velocity,
                             GLOBAL const uint *resting_steps, GLOBAL uint *rest_count, GLOBAL uint *counts, uint i)
 {
   uint limit = parameters->sleep_steps, steps = 0u;
-  if (is_dynamic(body_flags, i) &&
+  if (is_dynamic(body_flags, i) && !falls_freely(parameters, body_falls, body_mass, i) &&
       is_at_rest(parameters, load_velocity(solver_velocity, i), load_float4(body_shape, i).w))
     steps = resting_steps[i] < limit ? resting_steps[i] + 1u : limit;
   rest_count[i] = steps;
