@@ -76,7 +76,7 @@ public:
     else if constexpr (IsOptional<T>::value) {
       put(value.has_value());
       if (value) put(*value);
-    } else std::apply([this](const auto &...fields) { (put(fields), ...); }, fields_of(value));
+    } else std::apply([this](const auto &...fields) { (this->put(fields), ...); }, fields_of(value));
   }
   template <class Element> void put_list(std::span<Element> values)
   {
@@ -139,7 +139,7 @@ public:
     else if constexpr (IsOptional<T>::value) {
       if (get_flag()) get(value.emplace());
       else value.reset();
-    } else std::apply([this](auto &...fields) { (get(fields), ...); }, fields_of(value));
+    } else std::apply([this](auto &...fields) { (this->get(fields), ...); }, fields_of(value));
   }
   /* Nothing may follow what was read. */
   void expect_end() const
