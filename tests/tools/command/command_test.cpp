@@ -136,7 +136,8 @@ TEST_CASE("command: contact problems", "[command]")
 
 TEST_CASE("command: what is unknown is refused by name", "[command]")
 {
-  check_refused("replay f", "unknown command 'replay'");
+  check_refused("joint f", "unknown command 'joint'");
+  check_refused("replay f", "f: cannot read");
   check_refused("bench solve", "bench 'solve' is unknown");
 }
 
