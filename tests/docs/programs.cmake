@@ -7,7 +7,8 @@ if(TANDEM_TEST_RUNNER MATCHES "[.]o$")
 endif()
 add_executable(page_tests ${TANDEM_PAGE_TESTS} ${TANDEM_TEST_RUNNER})
 add_executable(page_command tests/docs/page_command.cpp tools/command/distinct_files.cpp tools/command/output.cpp
-  tools/command/progress.cpp tools/command/scene_options.cpp tools/diff/diff.cpp tools/plan/plan.cpp)
+  tools/command/progress.cpp tools/command/scene_options.cpp tools/diff/diff.cpp tools/plan/plan.cpp
+  tools/replay/recording_file.cpp)
 foreach(program page_tests page_command)
   set_target_properties(${program} PROPERTIES UNITY_BUILD ON)
   target_include_directories(${program} PRIVATE ${PROJECT_SOURCE_DIR})
