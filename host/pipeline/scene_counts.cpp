@@ -5,6 +5,7 @@
 
 #include "host/pipeline/batching/batcher.h"
 #include "host/pipeline/layout.h"
+#include "host/runtime/memory.h"
 #include "shared/broadphase/sweep_limits.h"
 #include "shared/counts.h"
 #include "shared/platform.h"
@@ -31,6 +32,11 @@ std::vector<std::pair<int, uint32_t>> entries_of(const SceneCounts &scene)
           {COUNT_COLOR_STARTS, COLOR_LIMIT + 1},
           {COUNT_BATCH_CELLS, batch_cells_for(scene.bodies)},
           {COUNT_BATCH_ITEMS, TILE * batch_cells_for(scene.bodies)}};
+}
+
+void set_length(Memory &memory, uint32_t length)
+{
+  memory.upload(Buffer::counts, &length, sizeof length, COUNT_LENGTH * sizeof length);
 }
 
 bool is_told_by_scene(uint32_t entry)

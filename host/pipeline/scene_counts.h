@@ -8,6 +8,8 @@
 
 namespace tandem {
 
+class Memory;
+
 struct SceneCounts {
   uint32_t bodies = 0;    /* that are awake */
   uint32_t unbounded = 0; /* half-spaces: the first bodies */
@@ -17,6 +19,8 @@ struct SceneCounts {
 
 /* The entries of shared/counts.h with their values. */
 std::vector<std::pair<int, uint32_t>> entries_of(const SceneCounts &scene);
+/* Sets COUNT_LENGTH, by which launches run over a list that the host has made. */
+void set_length(Memory &memory, uint32_t length);
 /* Whether an entry is one of those. */
 bool is_told_by_scene(uint32_t entry);
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "host/base/reserve_more.h"
+#include "host/pipeline/scene_counts.h"
 #include "shared/counts.h"
 
 namespace tandem {
@@ -52,7 +53,7 @@ void CommandList::apply(std::span<const Kernel> kernels, const std::vector<uint3
 {
   if (commands_.empty()) return;
   const uint32_t bodies = upload(index_of_body, memory);
-  memory.upload(Buffer::counts, &bodies, sizeof bodies, COUNT_LENGTH * sizeof bodies);
+  set_length(memory, bodies);
   for (const Kernel kernel : kernels) launcher.launch({kernel, {}, {}, COUNT_ZERO, COUNT_LENGTH, bodies});
   commands_.clear();
 }

@@ -188,7 +188,6 @@ struct World::Implementation {
   std::vector<BodyRows> body_rows(const std::vector<bool> &touched) const;
   std::vector<CarriedBuffer> pair_rows(const std::vector<bool> &touched) const;
   void note_sleep(Recorder &recorder) const;
-  void set_length(uint32_t length);
   void count_bodies(uint32_t awake);
   void count_awake_bodies();
   void sleepers_changed();

@@ -10,6 +10,7 @@
 #include "host/geometry/convex_hull.h"
 #include "host/pipeline/broadphases/broadphase.h"
 #include "host/pipeline/primitives.h"
+#include "host/pipeline/scene_counts.h"
 #include "host/scene/body_buffers.h"
 #include "host/scene/hull_chunks.h"
 #include "host/scene/shape_bounds.h"
@@ -46,12 +47,6 @@ void upload_filters(Memory &memory, const Scene &scene, const std::vector<uint32
 
 /* Kernels index the float4s of queries, two for a start, with 32 bits. */
 constexpr size_t most_queries = size_t{1} << 31;
-
-void set_length(Memory &memory, size_t queries)
-{
-  const auto length = static_cast<uint32_t>(queries);
-  memory.upload(Buffer::counts, &length, sizeof length, COUNT_LENGTH * sizeof length);
-}
 
 void check_number(size_t queries)
 {
@@ -129,7 +124,7 @@ void upload_rays(const QueryTarget &target, std::span<const Ray> rays)
   upload_filters(target.memory, target.scene, target.order, filters);
   upload(target.memory, Buffer::query_start, starts);
   upload(target.memory, Buffer::query_displacement, paths);
-  set_length(target.memory, rays.size());
+  set_length(target.memory, static_cast<uint32_t>(rays.size()));
 }
 
 void upload_boxes(const QueryTarget &target, std::span<const QueryBox> boxes)
@@ -148,7 +143,7 @@ void upload_boxes(const QueryTarget &target, std::span<const QueryBox> boxes)
   upload(target.memory, Buffer::query_start, starts);
   upload(target.memory, Buffer::query_displacement, paths);
   upload(target.memory, Buffer::query_extent, extents);
-  set_length(target.memory, boxes.size());
+  set_length(target.memory, static_cast<uint32_t>(boxes.size()));
 }
 
 /* The radius of a shape that is centred in its body. */
@@ -318,7 +313,7 @@ std::vector<ShapeCastHit> cast_shapes(const QueryTarget &target, const Shape &sh
   upload(memory, Buffer::query_shape, std::vector<float4>{{size[0], size[1], size[2], radius_of(shape)}});
   upload(memory, Buffer::query_vertex, vertices);
   upload(memory, Buffer::query_chunk, chunks);
-  set_length(memory, poses.size());
+  set_length(memory, static_cast<uint32_t>(poses.size()));
   reserve_hits(memory, poses.size());
   launch(target, Kernel::cast_shapes, poses.size(),
          {static_cast<uint32_t>(shape.type), static_cast<uint32_t>(vertices.size())});

@@ -5,7 +5,7 @@
  *
  * Bodies that fall asleep move behind the others, and their cached pairs go to host/world/sleepers.h. Bodies that wake
  * move to the end of those awake and change places with sleepers that lie there; their pairs are appended to the cached
- * ones. Both cost what moves, not what sleeps.
+ * ones. Waking costs what moves, and falling asleep what was awake; neither costs what sleeps.
  *
  * A large body that wakes is one of the small ones from then on: the broadphase finds the same pairs, and takes longer.
  *
@@ -84,11 +84,6 @@ void World::Implementation::note_sleep(Recorder &recorder) const
   for (const BodyRows &rows : body_rows(touched)) move_body_rows(recorder, rows, COUNT_LENGTH, plan.bodies);
   for (const CarriedBuffer &rows : pair_rows(touched))
     move_pair_rows(recorder, rows.now, rows.previous, plan.capacity_pairs);
-}
-
-void World::Implementation::set_length(uint32_t length)
-{
-  memory.upload(Buffer::counts, &length, sizeof length, COUNT_LENGTH * sizeof length);
 }
 
 /* Kernels see the bodies that are awake, or for queries all of them. */
@@ -190,7 +185,7 @@ void World::Implementation::put_to_sleep()
              labels = memory.read<uint32_t>(Buffer::island_label, before);
   keep_order_of_events();
   begin_launches();
-  set_length(pairs);
+  set_length(memory, pairs);
   StepLaunches step(launcher, plan, settings);
   place_awake_first(step, pairs);
   const std::vector<CarriedBuffer> of_pairs = pair_rows(buffers.needs().touched);
@@ -261,7 +256,7 @@ void World::Implementation::bring_forward(const std::vector<uint32_t> &woken)
 
   memory.upload(Buffer::move_from, from.data(), from.size() * sizeof(uint32_t));
   memory.upload(Buffer::move_to, to.data(), to.size() * sizeof(uint32_t));
-  set_length(static_cast<uint32_t>(from.size()));
+  set_length(memory, static_cast<uint32_t>(from.size()));
   for (const BodyRows &rows : body_rows(buffers.needs().touched))
     move_body_rows(launcher, rows, COUNT_LENGTH, static_cast<uint32_t>(from.size()));
   std::vector<uint32_t> moved;

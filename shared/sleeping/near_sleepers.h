@@ -51,7 +51,7 @@ SHARED void measure_sleepers_item(GLOBAL const Parameters *parameters, GLOBAL co
 SHARED real reach_of_sleepers(GLOBAL const uint *counts) { return BITS_FLOAT(counts[COUNT_SLEEPER_REACH]); }
 
 /* The reach is 0 if all sleepers are large: the quotient is then infinite or no number, and floor_to_int takes it. */
-SHARED int cell_along(real x, real reach) { return floor_to_int(x / (R(2.0) * reach)); }
+SHARED int sleeper_cell_along(real x, real reach) { return floor_to_int(x / (R(2.0) * reach)); }
 
 SHARED uint key_of_cell(int x, int y, int z)
 {
@@ -66,10 +66,10 @@ SHARED void sleeper_keys_item(GLOBAL const Parameters *parameters, GLOBAL const 
   box_bounds box = load_bounds(bounds, i);
   vec3 center = scale(add(box.lower, box.upper), R(0.5));
   real reach = reach_of_sleepers(counts);
-  sort_key[place] =
-      is_large_sleeper(parameters, box)
-          ? LARGE_SLEEPER
-          : key_of_cell(cell_along(center.x, reach), cell_along(center.y, reach), cell_along(center.z, reach));
+  sort_key[place] = is_large_sleeper(parameters, box)
+                        ? LARGE_SLEEPER
+                        : key_of_cell(sleeper_cell_along(center.x, reach), sleeper_cell_along(center.y, reach),
+                                      sleeper_cell_along(center.z, reach));
   sort_value[place] = i;
 }
 
@@ -101,8 +101,8 @@ FORCE_INLINE uint find_among_sleepers(const pair_search *search, const sleeper_l
 }
 
 /* A row of cells along x is not one range of keys, so each cell is searched by itself. */
-FORCE_INLINE uint find_in_cells(const pair_search *search, const sleeper_list *sleepers, const int low[3],
-                                const int high[3], const find_list *list, uint at)
+FORCE_INLINE uint find_in_sleeper_cells(const pair_search *search, const sleeper_list *sleepers, const int low[3],
+                                        const int high[3], const find_list *list, uint at)
 {
   for (int z = low[2]; z <= high[2]; ++z)
     for (int y = low[1]; y <= high[1]; ++y)
@@ -124,13 +124,13 @@ FORCE_INLINE uint find_sleepers(const pair_search *search, const sleeper_list *s
 {
   real reach = reach_of_sleepers(counts);
   vec3 lower = search->box.lower, upper = search->box.upper;
-  int low[3] = {cell_along(lower.x - reach, reach), cell_along(lower.y - reach, reach),
-                cell_along(lower.z - reach, reach)};
-  int high[3] = {cell_along(upper.x + reach, reach), cell_along(upper.y + reach, reach),
-                 cell_along(upper.z + reach, reach)};
+  int low[3] = {sleeper_cell_along(lower.x - reach, reach), sleeper_cell_along(lower.y - reach, reach),
+                sleeper_cell_along(lower.z - reach, reach)};
+  int high[3] = {sleeper_cell_along(upper.x + reach, reach), sleeper_cell_along(upper.y + reach, reach),
+                 sleeper_cell_along(upper.z + reach, reach)};
   if (covers_many_cells(low[0], high[0]) || covers_many_cells(low[1], high[1]) || covers_many_cells(low[2], high[2]))
     return find_among_sleepers(search, sleepers, 0u, sleepers->count, list, at);
-  at = find_in_cells(search, sleepers, low, high, list, at);
+  at = find_in_sleeper_cells(search, sleepers, low, high, list, at);
   uint first = lower_bound_of(sleepers->table.key, sleepers->count, LARGE_SLEEPER);
   return find_among_sleepers(search, sleepers, first, sleepers->count, list, at);
 }

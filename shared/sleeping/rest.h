@@ -21,12 +21,15 @@ SHARED mask is_at_rest(GLOBAL const Parameters *parameters, spatial_velocity m, 
   return length_of(m.linear) + radius * length_of(m.angular) <= limit;
 }
 
-/* A body that nothing holds falls, however slowly it still moves: its support has just gone. */
+/* A body whose support has just gone is not at rest, however slowly it still moves. body_falls alone does not say so,
+ * because the gap of a contact that rests may be a hair beyond what it looks ahead. What falls has the velocity of one
+ * step at least. */
 SHARED mask falls_freely(GLOBAL const Parameters *parameters, GLOBAL const uint *body_falls,
-                         GLOBAL const float4 *body_mass, uint body)
+                         GLOBAL const float4 *body_mass, vec3 velocity, uint body)
 {
   real pull = load_float4(body_mass, body * 2u).w;
-  return body_falls[body] != 0u && length_squared(scale(gravity_of(parameters), pull)) > R(0.0);
+  real gained = R(0.5) * parameters->step * length_of(scale(gravity_of(parameters), pull));
+  return body_falls[body] != 0u && gained > R(0.0) && length_of(velocity) > gained;
 }
 
 /* resting_steps: up to the last step. rest_count: with this one. */
@@ -36,8 +39,9 @@ SHARED void count_rest_item(GLOBAL const Parameters *parameters, GLOBAL const ui
                             GLOBAL const uint *resting_steps, GLOBAL uint *rest_count, GLOBAL uint *counts, uint i)
 {
   uint limit = parameters->sleep_steps, steps = 0u;
-  if (is_dynamic(body_flags, i) && !falls_freely(parameters, body_falls, body_mass, i) &&
-      is_at_rest(parameters, load_velocity(solver_velocity, i), load_float4(body_shape, i).w))
+  spatial_velocity m = load_velocity(solver_velocity, i);
+  if (is_dynamic(body_flags, i) && is_at_rest(parameters, m, load_float4(body_shape, i).w) &&
+      !falls_freely(parameters, body_falls, body_mass, m.linear, i))
     steps = resting_steps[i] < limit ? resting_steps[i] + 1u : limit;
   rest_count[i] = steps;
   if (steps == limit) ATOMIC_ADD(counts + COUNT_DROWSY, 1u);

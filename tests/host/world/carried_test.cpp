@@ -34,13 +34,16 @@ const std::vector<Case> cases = {
     {TANDEM_SOURCE_DIR "/tests/scenes/rolling_balls.json", Solver::soft_step, Broadphase::hybrid},
     {"spheres:n=12,height=0", Solver::jacobi, Broadphase::grid}};
 
-/* After so many steps; with events, whose pairs are carried over too. */
+/* After so many steps; with events, forces and sleeping, which carry buffers of their own. No body rests long enough to
+ * sleep. */
 std::unique_ptr<World> world_of(const Case &c, uint64_t steps)
 {
   Settings settings = settings_for(c.solver);
   settings.broadphase = c.broadphase;
   settings.events = true;
+  settings.sleeping = true;
   auto world = std::make_unique<World>(load_scene(c.scene), settings, Placement{"serial", {}, false});
+  world->add_force(world->id_of(1), {0, 0.01f, 0});
   for (uint64_t k = 0; k < steps; ++k) world->step();
   return world;
 }

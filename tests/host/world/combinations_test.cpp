@@ -6,6 +6,7 @@
 #include <tandem/world.h>
 
 #include "tests/catch.h"
+#include "tests/host/world/bodies.h"
 
 using namespace tandem;
 using Catch::Matchers::ContainsSubstring;
@@ -17,14 +18,6 @@ Settings sleepy()
   Settings settings;
   settings.sleeping = true;
   return settings;
-}
-
-Body body_at(const Point &position, uint32_t shape)
-{
-  Body body;
-  body.shape = shape;
-  body.position = position;
-  return body;
 }
 
 /* Body 0 is a floor; the others are dynamic. */

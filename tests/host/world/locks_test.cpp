@@ -8,6 +8,7 @@
 #include "host/base/random.h"
 #include "host/runtime/interface/features.h"
 #include "tests/catch.h"
+#include "tests/host/world/bodies.h"
 
 using namespace tandem;
 using Catch::Matchers::ContainsSubstring;
@@ -30,14 +31,6 @@ Scene weightless()
   scene.gravity = {0, 0, 0};
   scene.shapes = {sphere_shape(0.5f), box_shape(0.5f, 0.5f, 0.5f), box_shape(1, 0.2f, 0.3f)};
   return scene;
-}
-
-Body body_at(const Point &position, uint32_t shape = 0)
-{
-  Body body;
-  body.shape = shape;
-  body.position = position;
-  return body;
 }
 
 Body ground()

@@ -9,6 +9,7 @@
 #include "host/runtime/interface/features.h"
 #include "host/runtime/memory.h"
 #include "tests/catch.h"
+#include "tests/host/world/bodies.h"
 #include "tests/host/runtime/opencl/pocl.h"
 
 using namespace tandem;
@@ -25,14 +26,6 @@ Scene weightless()
   scene.gravity = {0, 0, 0};
   scene.shapes = {sphere_shape(0.5f), box_shape(0.5f, 0.5f, 0.5f)};
   return scene;
-}
-
-Body body_at(const Point &position, uint32_t shape = 0)
-{
-  Body body;
-  body.shape = shape;
-  body.position = position;
-  return body;
 }
 
 /* A large box, its top at height 0, and boxes upon it. */

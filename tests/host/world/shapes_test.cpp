@@ -7,19 +7,12 @@
 #include "host/runtime/memory.h"
 #include "tests/catch.h"
 #include "tests/host/runtime/opencl/pocl.h"
+#include "tests/host/world/bodies.h"
 
 using namespace tandem;
 using Catch::Matchers::ContainsSubstring;
 
 namespace {
-
-Body body_at(const Point &position, uint32_t shape = 0)
-{
-  Body body;
-  body.shape = shape;
-  body.position = position;
-  return body;
-}
 
 Child child_at(const Shape &shape, const Vec3 &position)
 {
