@@ -25,7 +25,7 @@ install_option=
 quick=
 sanitizers="asan tsan"
 export TANDEM_WITHOUT_COMPILERS=
-all_compilers="golden-o0 golden-o1 golden-o3 golden-clang golden-aarch64"
+all_compilers="golden-o0 golden-o3 golden-clang golden-aarch64"
 compilers=$all_compilers
 while [ $# -gt 0 ]; do
   case $1 in
@@ -71,8 +71,9 @@ for preset in $compilers; do
 done
 
 printf '\n== release\n'
-cmake --preset release -DTANDEM_BUILD_TESTS=ON -DTANDEM_WARNINGS_AS_ERRORS=ON \
-    "-DTANDEM_SANITIZER_TREES=$(echo "$sanitizers" | tr ' ' ';')"
+# Joined sources take a third of the time; the presets for daily work compile each source alone.
+cmake --preset release -DTANDEM_BUILD_TESTS=ON -DTANDEM_WARNINGS_AS_ERRORS=ON -DTANDEM_JOIN_SOURCES=ON \
+    -DTANDEM_PRECOMPILE_HEADERS=ON "-DTANDEM_SANITIZER_TREES=$(echo "$sanitizers" | tr ' ' ';')"
 cmake --build --preset release -j "$jobs"
 
 for preset in $sanitizers; do

@@ -11,6 +11,7 @@
 #include "host/base/out_of_memory.h"
 #include "tests/catch.h"
 #include "tests/heap/allocations.h"
+#include "tests/share_of_faults.h"
 
 namespace tests::heap {
 
@@ -71,7 +72,7 @@ void fail_everywhere(
   const size_t files = open_files();
   uint64_t failures = 0;
   for (const bool once : {true, false})
-    for (uint64_t nth = 0;; ++nth) {
+    for (uint64_t nth = 0;; nth += share_of_faults(1)) {
       CAPTURE(nth, once);
       before();
       const Outcome outcome = attempt(nth, once, call);

@@ -33,12 +33,11 @@ std::vector<std::string> write_scenes(const Scratch &folder)
 {
   using namespace gltf_text;
   write(folder.file("tip.obj"), "# a tip\nv 0 0 0\nv 3 0 0\nv 0 2 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
-  write(
-      folder.file("obj.json"),
-      R"({"tandem_scene": 1, "shapes": [{"type": "mesh", "obj": "tip.obj"}, {"type": "hull", "obj": "tip.obj",)"
-      R"( "scale": [2, 2, 2]}],
+  write(folder.file("obj.json"),
+        R"({"tandem_scene": 1, "shapes": [{"type": "mesh", "obj": "tip.obj"}, {"type": "hull", "obj": "tip.obj",)"
+        R"( "scale": [2, 2, 2]}],
  "bodies": [{"name": "a rather long name of a body", "shape": 0, "density": 1000}, {"shape": 1, "density": 3,)"
-      R"( "position": [9, 0, 0]}]})");
+        R"( "position": [9, 0, 0]}]})");
   const std::string materials =
       R"("physicsMaterials":[{"restitution":0.25}],"collisionFilters":[{"collisionSystems":["a"],)"
       R"("collideWithSystems":["b"]}])";
@@ -47,14 +46,11 @@ std::vector<std::string> write_scenes(const Scratch &folder)
   write(folder.file("hull.gltf"), gltf({.nodes = cup_of(R"("mesh":0,"convexHull":true)"),
                                         .document = materials,
                                         .more = with_mesh(tip_points, tip_triangles)}));
-  write(
-      folder.file("compound.gltf"),
-      gltf(
-          {.nodes =
-               R"({"name":"Cup","children":[1],"extensions":{"KHR_physics_rigid_bodies":{"motion":{},)"
-               R"("collider":{"geometry":{"shape":0},"physicsMaterial":0}}}},)" +
-               collider(1, R"("translation":[0,2,0],)", R"(,"collisionFilter":0)"),
-           .document = materials}));
+  write(folder.file("compound.gltf"),
+        gltf({.nodes = R"({"name":"Cup","children":[1],"extensions":{"KHR_physics_rigid_bodies":{"motion":{},)"
+                       R"("collider":{"geometry":{"shape":0},"physicsMaterial":0}}}},)" +
+                       collider(1, R"("translation":[0,2,0],)", R"(,"collisionFilter":0)"),
+              .document = materials}));
   std::vector<std::string> scenes;
   for (const char *name : {"obj.json", "mesh.gltf", "hull.gltf", "compound.gltf"}) scenes.push_back(folder.file(name));
   for (const char *name : {"every_shape.json", "few_hulls.json", "few_trees.json", "three_bodies.json", "triggers.json",

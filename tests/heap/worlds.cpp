@@ -86,7 +86,7 @@ uint64_t fail_everywhere_in_step(const Story &story, uint64_t stride = 1)
   const std::vector<uint64_t> undisturbed = undisturbed_hashes(story);
   uint64_t failures = 0;
   for (const bool once : {true, false})
-    for (uint64_t nth = 0;; nth += once ? stride : 7 * stride) {
+    for (uint64_t nth = 0;; nth += (once ? stride : 7 * stride) * tests::share_of_faults(1)) {
       CAPTURE(story.scene.name, story.settings.solver, story.settings.broadphase, story.placement.on, story.at, nth,
               once);
       const std::unique_ptr<World> world = begun(story);
@@ -154,6 +154,7 @@ std::vector<std::pair<const char *, Call>> questions(const Settings &settings)
       {"cast_rays_all", [](World &world) { world.cast_rays_all(some_rays()); }},
       {"cast_boxes", [](World &world) { world.cast_boxes(a_box()); }},
       {"shape cast", [](World &world) { swept_ball(world); }},
+      {"overlaps", [](World &world) { overlapped_by_ball(world); }},
       {"state_hash", [](World &world) { world.state_hash(); }},
       {"body_hash", [](World &world) { world.body_hash(); }},
       {"statistics", [](World &world) { world.statistics(); }},
@@ -179,7 +180,7 @@ void fail_everywhere_in(const Call &call, const Story &story)
 {
   const std::vector<uint64_t> undisturbed = undisturbed_hashes(story);
   for (const bool once : {true, false})
-    for (uint64_t nth = 0;; nth += once ? 1 : 7) {
+    for (uint64_t nth = 0;; nth += (once ? 1 : 7) * tests::share_of_faults(1)) {
       CAPTURE(nth, once);
       const std::unique_ptr<World> world = begun(story);
       const Outcome outcome = attempt(nth, once, [&] { call(*world); });

@@ -16,20 +16,14 @@
 #include "host/runtime/interface/faults.h"
 #include "tests/host/runtime/interface/fault_scenes.h"
 #include "tests/host/runtime/opencl/pocl.h"
+#include "tests/share_of_faults.h"
 
 using namespace tandem;
 using namespace tandem::fault_scenes;
 
 namespace {
 
-/* Every `share`-th of the operations that fail elsewhere fails here, because a sanitizer takes thirty times as long and
- * sees the same code at each (tests/sanitizers/tests.cmake). */
-uint64_t share_of_faults()
-{
-  const char *text = std::getenv("TANDEM_TEST_SHARE_OF_FAULTS");
-  return text ? std::stoull(text) : 1;
-}
-const uint64_t share = share_of_faults();
+const uint64_t share = tests::share_of_faults(1);
 
 /* The operation that fails, counted from 0. `once`: only that one fails; else all later ones fail, too. only:
  * operations of one kind. */
@@ -133,6 +127,7 @@ void fail_everywhere_between_steps(const Scene &scene, const Settings &settings,
       {"rays", [](World &world) { world.cast_rays_all(some_rays()); }},
       {"boxes", [](World &world) { world.cast_boxes(a_box()); }},
       {"shape cast", swept_ball},
+      {"overlaps", overlapped_by_ball},
       {"hash", [](World &world) { world.state_hash(); }},
       {"statistics", [](World &world) { world.statistics(); }},
       {"place", [&](World &world) { world.place(other); }},
