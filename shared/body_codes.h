@@ -20,6 +20,9 @@ enum {
   SHAPE_COMPOUND = 8,
   SHAPE_TRIANGLE = 9
 };
+/* The bits that hold such a code where it shares a word (sweeps/overlap_shapes.h). */
+#define SHAPE_KIND_BITS 4u
+#define SHAPE_KIND_MASK 15u
 
 /* A quarantined body has been taken out of the simulation, because its state stopped being finite. */
 enum { BODY_TYPE_FIXED = 0, BODY_TYPE_KINEMATIC = 1, BODY_TYPE_DYNAMIC = 2, BODY_TYPE_QUARANTINED = 3 };

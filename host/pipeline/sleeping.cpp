@@ -61,6 +61,7 @@ void find_drowsy_islands(StepLaunches &step)
   find_islands(step);
   step.run(Kernel::keep_islands_awake);
   step.run(Kernel::keep_carried_awake);
+  if (step.has(FEATURE_TRIGGER)) step.run(Kernel::keep_triggers_awake);
   step.run(Kernel::choose_sleepers);
 }
 

@@ -69,6 +69,7 @@ void Memory::assign(Buffer buffer, const void *from, size_t bytes)
   }
   release(entry);
   entry = std::move(other);
+  uploaded_bytes_ += bytes;
 }
 
 void Memory::reserve(Buffer buffer, Storage &storage)
@@ -180,6 +181,7 @@ void Memory::prepare_upload(Buffer buffer)
 void Memory::upload(Buffer buffer, const void *from, size_t bytes, size_t offset)
 {
   if (bytes == 0) return;
+  uploaded_bytes_ += bytes;
   Entry &entry = entries_[index_of(buffer)];
   Copy *device = valid_on_device(entry);
   if (!device) {

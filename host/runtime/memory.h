@@ -6,6 +6,7 @@
  */
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -72,6 +73,8 @@ public:
     return index_of(buffer) < entries_.size() ? entries_[index_of(buffer)].bytes : 0;
   }
   size_t total_bytes() const;
+  /* What upload() and assign() were given so far, so that a test can hold a call to uploading no more than it must. */
+  uint64_t uploaded_bytes() const { return uploaded_bytes_; }
   bool holds(Buffer buffer, const Storage &storage) const; /* whether the storage has a copy of it */
 
   /* Returns the buffer in this storage, valid if `access` reads; a write makes all other copies stale. If it throws
@@ -120,6 +123,7 @@ private:
   void release(Entry &entry) noexcept;
 
   std::vector<Entry> entries_; /* one for each buffer that existed when the memory was made */
+  uint64_t uploaded_bytes_ = 0;
 };
 
 } // namespace tandem

@@ -83,6 +83,7 @@ private:
 std::unique_ptr<World> Lockstep::make_world(size_t index) const
 {
   Placement placement = request_.placement;
+  placement.build_in_background = false; /* what is compared must run where it was asked to */
   placement.on = request_.backends[index];
   if (!request_.snapshot.empty()) return std::make_unique<World>(request_.snapshot, placement);
   return std::make_unique<World>(scene_, request_.settings, placement);

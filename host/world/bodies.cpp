@@ -39,7 +39,6 @@ struct World::Implementation::Arrival {
   std::array<std::vector<uint32_t>, regions> appended; /* new slots, by region */
   std::vector<uint32_t> restated;                      /* slots of old bodies whose state is that of the scene */
   float median = 0;
-  bool grows = false; /* beyond the present room */
 
   size_t new_slots() const { return appended[0].size() + appended[1].size() + appended[2].size(); }
   bool inserts() const { return !appended[0].empty() || !appended[1].empty(); }
@@ -97,6 +96,17 @@ void stage_carried_rows(StagedUploads &uploads, Memory &memory, const StepBuffer
   }
   const auto pairs = memory.read<uint32_t>(Buffer::cached_start, 1, old_order.awake_count).front();
   uploads.add(Buffer::cached_b, awake_rows.indices_of(memory, Buffer::cached_b, pairs));
+}
+
+/* What modules keep by body is 0 for a new one, also where another body lay before. */
+void stage_module_rows(StagedUploads &uploads, const std::vector<bool> &touched, size_t first, size_t count)
+{
+  for (size_t i = buffer_count; i < touched.size(); ++i) {
+    const BufferRow &row = row_of(buffer_at(i));
+    if (!touched[i] || row.capacity != Capacity::BODIES || row.lifetime == Lifetime::SCRATCH) continue;
+    const size_t item = row.per_item * size_of(row.element);
+    uploads.add_elements(buffer_at(i), std::vector<std::byte>(count * item), first * item);
+  }
 }
 
 } // namespace
@@ -158,17 +168,21 @@ void World::Implementation::check_new(std::span<const Body> given) const
   }
 }
 
-/* New slots are numbered in the order of the call. */
+/* The median size is found anew only where there is no room, so that few calls look at all bodies. */
 World::Implementation::Arrival World::Implementation::arrival_of(std::span<const Body> given) const
 {
+  const Arrival arrival = arrival_of(given, special.median);
+  if (bodies() + arrival.new_slots() <= plan.bodies) return arrival;
+  Scene all = scene;
+  all.bodies.insert(all.bodies.end(), given.begin(), given.end());
+  return arrival_of(given, median_radius(all));
+}
+
+/* New slots are numbered in the order of the call. */
+World::Implementation::Arrival World::Implementation::arrival_of(std::span<const Body> given, float median) const
+{
   Arrival arrival;
-  arrival.median = special.median;
-  arrival.grows = bodies() + given.size() > plan.bodies; /* sizes change with the room, so that few calls look */
-  if (arrival.grows) {
-    Scene all = scene;
-    all.bodies.insert(all.bodies.end(), given.begin(), given.end());
-    arrival.median = median_radius(all);
-  }
+  arrival.median = median;
   size_t large = special.large - special.unbounded;
   std::array<std::vector<uint32_t>, regions> usable;
   for (size_t region = 0; region < regions; ++region)
@@ -297,6 +311,7 @@ void World::Implementation::place_among_others(const Arrival &arrival)
   const HullNumbers numbers = hull_numbers(scene);
   for_each_run(indices, [&](size_t first, size_t count) {
     stage_new_bodies(uploads, scene, numbers, std::span(sorted_slots).subspan(first, count), indices[first]);
+    stage_module_rows(uploads, buffers.needs().touched, indices[first], count);
   });
   const uint32_t pairs = memory.read<uint32_t>(Buffer::cached_start, 1, special.awake).front();
   uploads.add(Buffer::cached_start, std::vector<uint32_t>(appended.size(), pairs), special.awake + size_t{1});
@@ -338,12 +353,6 @@ std::vector<uint32_t> order_with(const Specialisation &special, const std::array
   return order;
 }
 
-/* The contents of cached_normal that steps would have left if the scene had had trees before. */
-std::vector<float4> normals_of_pairs(Memory &memory, uint32_t bodies)
-{
-  return memory.read<float4>(Buffer::manifold_normal, memory.read<uint32_t>(Buffer::cached_start, 1, bodies).front());
-}
-
 } // namespace
 
 /* The layout for the scene with its new bodies. */
@@ -373,10 +382,13 @@ void World::Implementation::plan_layout(const Arrival &arrival, std::vector<uint
 /* The states of the new bodies, in their places, and of those that a call has changed. */
 void World::Implementation::stage_arrival(StagedUploads &uploads, const Arrival &arrival) const
 {
-  std::set<uint32_t> is_new(arrival.slots.begin(), arrival.slots.end());
-  is_new.insert(arrival.restated.begin(), arrival.restated.end());
-  for (uint32_t index = 0; index < bodies(); ++index)
-    if (is_new.contains(special.order[index])) stage_states(uploads, scene, std::span(&special.order[index], 1), index);
+  const std::set<uint32_t> is_new(arrival.slots.begin(), arrival.slots.end()),
+      is_restated(arrival.restated.begin(), arrival.restated.end());
+  for (uint32_t index = 0; index < bodies(); ++index) {
+    const uint32_t slot = special.order[index];
+    if (is_new.contains(slot)) stage_module_rows(uploads, buffers.needs().touched, index, 1);
+    if (is_new.contains(slot) || is_restated.contains(slot)) stage_states(uploads, scene, std::span(&slot, 1), index);
+  }
 }
 
 std::vector<uint32_t> World::Implementation::moved_bodies()
@@ -396,9 +408,6 @@ void World::Implementation::lay_out_anew(const Arrival &arrival)
   StagedUploads uploads;
   stage_carried_rows(uploads, memory, buffers, {old_order, special.awake},
                      {order, static_cast<uint32_t>(order.size()) - sleepers.count()});
-  /* An attempt that failed may have left the buffer without contents. */
-  if ((special.features & FEATURE_TREES) == 0 && !pairs_moved)
-    uploads.add(Buffer::cached_normal, normals_of_pairs(memory, special.awake));
   std::vector<uint32_t> order_before = arrival.inserts() && order_of_events.empty() ? old_order : order_of_events;
   LayoutBackup backup(*this);
   forget_kept(memory); /* their buffers get new sizes, and lose their contents, also where this fails later */

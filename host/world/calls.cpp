@@ -123,6 +123,7 @@ std::vector<uint32_t> World::Implementation::slots_of(const char *call, std::spa
 /* Brings the buffers to what the calls so far have made of the world. */
 void World::Implementation::settle()
 {
+  check_lost();
   restore_bodies(); /* where the last attempt of a step could not */
   if (commands.empty() && force_commands.empty()) return;
   const minicl::ExactFloatingPoint environment;

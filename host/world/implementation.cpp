@@ -207,13 +207,15 @@ bool World::Implementation::module_applies_forces() const
   return false;
 }
 
-/* The structure is made once for all queries between two changes of the state. Queries find sleeping bodies too, so
- * kernels see all bodies until the next step begins. */
+/* The structure is made, and the filters are compared, once for all queries between two changes of the state. Queries
+ * find sleeping bodies too, so kernels see all bodies until the next step begins. */
 QueryTarget World::Implementation::query_target()
 {
   const uint32_t structure = row_of(settings.broadphase).queries;
   settle();
   if (counted_bodies != bodies()) count_bodies(bodies());
+  const bool may_be_told = memory.bytes(Buffer::query_body) == queried_bodies.size() * sizeof(uint32_t);
+  if (structure_state != state || !may_be_told) tell_queried_bodies(memory, scene, special.order, queried_bodies);
   if (structure_state != state) {
     Recorder recorder;
     StepLaunches recorded(recorder, plan, settings), launches(launcher, plan, settings);
@@ -226,7 +228,7 @@ QueryTarget World::Implementation::query_target()
     if (!sleepers.empty()) forget_kept(memory); /* it belongs to other bodies than those of a step */
     structure_state = state;
   }
-  return {memory, launcher, scene, special.order, structure};
+  return {memory, launcher, structure};
 }
 
 } // namespace tandem

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <map>
+#include <mutex>
 #include <optional>
 #include <set>
 #include <span>
@@ -86,9 +87,12 @@ struct World::Implementation {
     Statistics statistics;
     size_t quarantined;
   };
-  void step();
+  void step(const StepLimits &limits);
   void sleep_on();
-  void run_until_whole();
+  void fall_asleep();
+  void check_lost() const;
+  void run_until_whole(const StepLimits &limits);
+  void check_limits(const StepLimits &limits) const;
   void turn() noexcept;
   void turn_back() noexcept;
   void undo(const Attempt &before) noexcept;
@@ -127,9 +131,13 @@ struct World::Implementation {
   void go_back(uint32_t states);
   void check_back(uint32_t states) const;
   std::vector<std::pair<int, uint32_t>> entries_then(const KeptState &state) const;
-  void stage_roster(StagedUploads &uploads, const KeptState &state, std::span<const RosterChange> changes) const;
-  void forget_handles(std::span<const RosterChange> changes, const BodySlots &slots_then);
-  void take_roster(const KeptState &state, BodySlots &slots_then) noexcept;
+  void stage_roster(StagedUploads &uploads, const KeptState &state, std::span<const RosterChange> changes,
+                    const std::vector<uint32_t> &index) const;
+  std::shared_ptr<const KeptSleepers> keep_sleepers();
+  void reorder_rows(const std::vector<uint32_t> &order);
+  void take_sleepers(KeptSleepers &then);
+  void put_back_sleepers(const KeptState &then);
+  void take_roster(const KeptState &state, BodySlots &slots_then, ShapeSlots &shapes_then) noexcept;
   void drop_forces();
   Storage &storage_of(Buffer buffer);
 
@@ -173,6 +181,7 @@ struct World::Implementation {
   uint32_t add_material(const Material &material);
   void check_new(std::span<const Body> bodies) const;
   Arrival arrival_of(std::span<const Body> bodies) const;
+  Arrival arrival_of(std::span<const Body> bodies, float median) const;
   bool brings_tables(const Arrival &arrival);
   bool brings_features(std::span<const uint32_t> slots);
   void note_kinds(std::span<const uint32_t> slots);
@@ -191,6 +200,7 @@ struct World::Implementation {
   void count_bodies(uint32_t awake);
   void count_awake_bodies();
   void sleepers_changed();
+  void tell_sleepers();
   void keep_sleeping(const std::vector<CarriedBuffer> &old_rows);
   void recount_motion();
   void keep_order_of_events();
@@ -213,6 +223,7 @@ struct World::Implementation {
   void keep_unwritten() noexcept;
   void run(Kernel kernel, const Values &values, const Slots &slots);
 
+  std::mutex reading; /* calls that read may be made beside each other */
   Scene scene;
   Settings settings;
   Specialisation special;
@@ -230,9 +241,11 @@ struct World::Implementation {
   std::vector<std::pair<int, uint32_t>> scene_entries; /* of counts */
   uint64_t state = 1, structure_state = 0; /* the number of the present state, and of the one that the queries'
                                               structure belongs to */
+  std::vector<uint32_t> queried_bodies; /* as tell_queried_bodies keeps them */
   bool launches_ended = true;
   bool turned = false; /* the commit of an unfinished step has begun */
   bool idle = false;   /* the last step had nothing to do, so it has no events and no contacts */
+  std::string lost;    /* why the world cannot go on; else empty */
   bool whole = true;   /* the last step succeeded; after one that failed there are no events or figures */
   /* Bodies that an unfinished step has quarantined, by their index in the buffers, with their earlier records. */
   std::vector<std::pair<uint32_t, BodyRecord>> taken_out;
@@ -246,11 +259,11 @@ struct World::Implementation {
   std::set<BodyKind> known_kinds;
   CommandList commands, force_commands; /* not applied yet */
   Sleepers sleepers;
+  uint64_t set_of_sleepers = 0, sets_of_sleepers = 0;         /* the number of the present set, and of those so far */
   std::vector<SleepEvent> sleep_events, sleep_events_to_come; /* of the last step, and since it ended */
   std::vector<uint32_t> set_elsewhere;  /* slots of the bodies that commands not applied yet put elsewhere */
   std::set<uint32_t> moving_kinematics; /* slots */
   uint32_t awake_dynamics = 0;
-  bool pairs_moved = false;    /* cached pairs have other places than the pairs of the last step */
   uint32_t counted_bodies = 0; /* that kernels see: those awake, or for queries all */
   uint64_t quiet_state = 0;    /* the state that the last step left */
   std::vector<Quarantine> quarantined;

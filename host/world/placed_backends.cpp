@@ -10,6 +10,8 @@
 namespace tandem {
 namespace {
 
+constexpr const char *until_built = "tbb";
+
 std::string backend_text(const Placement &placement, Kernel kernel)
 {
   std::string text = placement.on;
@@ -49,22 +51,28 @@ Backend &PlacedBackends::for_kernel(const Placement &placement, Kernel kernel)
 }
 
 /* Everything that can fail comes before the first change of the placement. */
-void PlacedBackends::assign(const Placement &placement, const std::vector<Kernel> &kernels)
+void PlacedBackends::assign(const Placement &placement, const std::vector<Kernel> &kernels, bool in_background)
 {
   std::map<Backend *, std::vector<Kernel>> own;
   for (Kernel kernel : kernels) own[&for_kernel(placement, kernel)].push_back(kernel);
-  for (const auto &[backend, theirs] : own) backend->prepare(features_, theirs);
   std::vector<Backend *> placed(all_kernels());
-  for (const auto &[backend, theirs] : own)
-    for (Kernel kernel : theirs) placed[index_of(kernel)] = backend;
+  bool waiting = false;
+  for (const auto &[backend, theirs] : own) {
+    const bool built = !in_background || backend->is_built_ahead(features_, theirs);
+    if (built) backend->prepare(features_, theirs);
+    waiting = waiting || !built;
+    Backend *const now = built ? backend : &named(until_built, placement.allow_inexact);
+    for (Kernel kernel : theirs) placed[index_of(kernel)] = now;
+  }
   placed_ = std::move(placed);
+  waiting_ = waiting;
 }
 
 void PlacedBackends::place(const Placement &placement, const std::vector<Kernel> &kernels)
 {
   validate(placement);
   Placement wanted = placement; /* which may take memory that is not there */
-  assign(placement, kernels);
+  assign(placement, kernels, false);
   wanted_ = std::move(wanted);
 }
 
@@ -74,7 +82,7 @@ void PlacedBackends::take_features(Features features, const std::vector<Kernel> 
 {
   const Features before = std::exchange(features_, features);
   try {
-    assign(wanted_, kernels);
+    place_again(kernels);
   } catch (...) {
     features_ = before;
     take_back();
@@ -93,6 +101,7 @@ Backend &PlacedBackends::of(Kernel kernel)
   Backend *&backend = placed_.at(index_of(kernel));
   if (!backend) {
     Backend &chosen = for_kernel(wanted_, kernel);
+    if (waiting_ && !chosen.is_built_ahead(features_, {kernel})) return named(until_built, wanted_.allow_inexact);
     chosen.prepare(features_, {kernel}); /* if this throws, no backend is chosen */
     backend = &chosen;
   }

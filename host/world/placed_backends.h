@@ -27,9 +27,11 @@ public:
   /* Moves these kernels, and all others from their next launch on. If it throws (InputError or a device's
    * std::runtime_error), nothing has changed. */
   void place(const Placement &placement, const std::vector<Kernel> &kernels);
-  void place_again(const std::vector<Kernel> &kernels) { assign(wanted_, kernels); }
+  void place_again(const std::vector<Kernel> &kernels) { assign(wanted_, kernels, wanted_.build_in_background); }
   /* Builds these kernels for other features, and from now on all others too. If it throws, nothing has changed. */
   void take_features(Features features, const std::vector<Kernel> &kernels);
+  /* Kernels run on tbb until those of their backend are built: the same bits, and nobody waits for a compiler. */
+  bool is_waiting() const { return waiting_; }
   /* Kernels that place() did not name are built when they are first used, and then kept. */
   Backend &of(Kernel kernel);
 
@@ -41,7 +43,7 @@ public:
   double build_milliseconds() const;
 
 private:
-  void assign(const Placement &placement, const std::vector<Kernel> &kernels);
+  void assign(const Placement &placement, const std::vector<Kernel> &kernels, bool in_background);
   Backend &named(const std::string &text, bool allow_inexact);
   Backend &for_kernel(const Placement &placement, Kernel kernel);
 
@@ -50,6 +52,7 @@ private:
   std::map<std::string, std::shared_ptr<Backend>> backends_; /* by the text that names them */
   std::vector<Backend *> placed_;                            /* by the kernel's number */
   bool profiling_ = false;                                   /* also of backends made later */
+  bool waiting_ = false;
 };
 
 } // namespace tandem

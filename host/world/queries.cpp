@@ -35,16 +35,6 @@ template <class T> void upload(Memory &memory, Buffer buffer, const std::vector<
   memory.upload(buffer, values.data(), values.size() * sizeof(T));
 }
 
-void upload_filters(Memory &memory, const Scene &scene, const std::vector<uint32_t> &order,
-                    const std::vector<uint32_t> &filters)
-{
-  std::vector<uint32_t> bodies;
-  for (const uint32_t body : order)
-    bodies.insert(bodies.end(), {body, scene.bodies[body].filter_group, scene.bodies[body].filter_mask, 0u});
-  upload(memory, Buffer::query_body, bodies);
-  upload(memory, Buffer::query_filter, filters);
-}
-
 /* Kernels index the float4s of queries, two for a start, with 32 bits. */
 constexpr size_t most_queries = size_t{1} << 31;
 
@@ -88,20 +78,21 @@ template <class Start> std::vector<QueryHit> take_hits(Memory &memory, size_t qu
 
 /* Counts the hits of each query, scans the counts and writes the hits. Returns where the hits of each query start, and
  * the end of the last. */
-std::vector<uint32_t> find_all(const QueryTarget &target, Kernel count, Kernel write, size_t queries)
+std::vector<uint32_t> find_all(const QueryTarget &target, Kernel count, Kernel write, size_t queries,
+                               const std::vector<uint32_t> &values = {})
 {
   Memory &memory = target.memory;
   const auto capacity = static_cast<uint32_t>(queries);
   memory.resize(Buffer::query_found, (queries + 1) * sizeof(uint32_t));
   memory.resize(Buffer::scan_sums,
                 std::max(memory.bytes(Buffer::scan_sums), scan_sum_words(queries + 1) * sizeof(uint32_t)));
-  launch(target, count, queries);
+  launch(target, count, queries, values);
   exclusive_scan(target.launcher, Buffer::query_found, Buffer::query_found, Buffer::scan_sums, COUNT_LENGTH, capacity);
   const std::vector<uint32_t> starts = memory.read<uint32_t>(Buffer::query_found, queries + 1);
   if (starts.back() == UINT32_MAX) /* the scan saturates */
     throw InputError(fmt::format("{} queries have {} hits or more; smaller batches are needed", queries, UINT32_MAX));
   reserve_hits(memory, std::max(starts.back(), 1u));
-  launch(target, write, queries);
+  launch(target, write, queries, values);
   return starts;
 }
 
@@ -121,7 +112,7 @@ void upload_rays(const QueryTarget &target, std::span<const Ray> rays)
     paths.push_back({ray.direction[0], ray.direction[1], ray.direction[2], ray.reach});
     filters.insert(filters.end(), {ray.filter.group, ray.filter.mask});
   }
-  upload_filters(target.memory, target.scene, target.order, filters);
+  upload(target.memory, Buffer::query_filter, filters);
   upload(target.memory, Buffer::query_start, starts);
   upload(target.memory, Buffer::query_displacement, paths);
   set_length(target.memory, static_cast<uint32_t>(rays.size()));
@@ -139,7 +130,7 @@ void upload_boxes(const QueryTarget &target, std::span<const QueryBox> boxes)
     extents.push_back({half[0], half[1], half[2], 0});
     filters.insert(filters.end(), {box.filter.group, box.filter.mask});
   }
-  upload_filters(target.memory, target.scene, target.order, filters);
+  upload(target.memory, Buffer::query_filter, filters);
   upload(target.memory, Buffer::query_start, starts);
   upload(target.memory, Buffer::query_displacement, paths);
   upload(target.memory, Buffer::query_extent, extents);
@@ -155,16 +146,63 @@ float radius_of(const Shape &shape)
   return bounding_radius(scene, scene.bodies[0]);
 }
 
-/* A shape cast refuses the shapes that a scene would refuse for a body that need not have a mass. */
-void check_swept_shape(const Shape &shape)
+/* A query refuses the shapes that a scene would refuse for a body that need not have a mass. */
+void check_convex(const Shape &shape, const char *query, const char *done)
 {
   const ShapeType type = shape.type;
   if (type == ShapeType::half_space || type == ShapeType::mesh || type == ShapeType::compound)
-    throw InputError(
-        "shape cast: half_spaces, meshes and compounds cannot be cast; a box, sphere, capsule, cylinder or hull can");
+    throw InputError(fmt::format("{}: half_spaces, meshes and compounds cannot be {}; a box, sphere, capsule, cylinder "
+                                 "or hull can",
+                                 query, done));
   Scene scene;
   scene.shapes = {shape};
-  validate(scene, "shape cast");
+  validate(scene, query);
+}
+
+void check_pose(const Pose &pose, const char *query, size_t index)
+{
+  if (!is_finite_vector(pose.position))
+    refuse(query, index,
+           fmt::format("position is {}; three finite numbers are needed", vector_text(pose.position)));
+  const Quat &q = pose.orientation;
+  const double square = double{q[0]} * q[0] + double{q[1]} * q[1] + double{q[2]} * q[2] + double{q[3]} * q[3];
+  if (!(std::abs(square - 1) < 2e-3))
+    refuse(query, index,
+           fmt::format("orientation is [{}, {}, {}, {}]; a quaternion of length 1 is needed", q[0], q[1], q[2], q[3]));
+}
+
+/* Uploads a convex shape with its poses and displacements; without displacements they are 0. Returns the number of
+ * vertices that a hull has. */
+uint32_t upload_shape_queries(const QueryTarget &target, const Shape &shape, std::span<const Pose> poses,
+                              std::span<const Vec3> displacements, const QueryFilter &filter)
+{
+  Memory &memory = target.memory;
+  std::vector<float4> starts, turns, paths(poses.size(), float4{0, 0, 0, 1}), vertices{{0, 0, 0, 0}}, chunks;
+  std::vector<uint32_t> filters;
+  for (const Pose &pose : poses) {
+    const std::array<float4, 2> place = double_float3_of(pose.position);
+    const Quat q = unit(pose.orientation);
+    starts.insert(starts.end(), place.begin(), place.end());
+    turns.push_back({q[0], q[1], q[2], q[3]});
+    filters.insert(filters.end(), {filter.group, filter.mask});
+  }
+  for (size_t i = 0; i < displacements.size(); ++i)
+    paths[i] = {displacements[i][0], displacements[i][1], displacements[i][2], 1};
+  if (shape.hull) {
+    vertices.clear();
+    for (const Vec3 &v : shape.hull->vertices) vertices.push_back({v[0], v[1], v[2], 0});
+  }
+  append_chunks(chunks, vertices, 3);
+  const Vec3 size = kernel_size(shape);
+  upload(memory, Buffer::query_filter, filters);
+  upload(memory, Buffer::query_start, starts);
+  upload(memory, Buffer::query_turn, turns);
+  upload(memory, Buffer::query_displacement, paths);
+  upload(memory, Buffer::query_shape, std::vector<float4>{{size[0], size[1], size[2], radius_of(shape)}});
+  upload(memory, Buffer::query_vertex, vertices);
+  upload(memory, Buffer::query_chunk, chunks);
+  set_length(memory, static_cast<uint32_t>(poses.size()));
+  return static_cast<uint32_t>(vertices.size());
 }
 
 } // namespace
@@ -205,26 +243,38 @@ void check_boxes(std::span<const QueryBox> boxes)
 
 void check_shape_casts(const Shape &shape, std::span<const Pose> poses, std::span<const Vec3> displacements)
 {
-  check_swept_shape(shape);
+  check_convex(shape, "shape cast", "cast");
   check_number(poses.size());
   if (poses.size() != displacements.size())
     throw InputError(fmt::format("shape cast: {} poses and {} displacements; one of each is needed", poses.size(),
                                  displacements.size()));
   for (size_t i = 0; i < poses.size(); ++i) {
-    if (!is_finite_vector(poses[i].position))
-      refuse("shape cast", i,
-             fmt::format("position is {}; three finite numbers are needed", vector_text(poses[i].position)));
+    check_pose(poses[i], "shape cast", i);
     if (!is_finite_vector(displacements[i]) || length(displacements[i]) > longest)
       refuse(
           "shape cast", i,
           fmt::format("displacement is {}; a vector of at most {} is needed", vector_text(displacements[i]), longest));
-    const Quat &q = poses[i].orientation;
-    const double square = double{q[0]} * q[0] + double{q[1]} * q[1] + double{q[2]} * q[2] + double{q[3]} * q[3];
-    if (!(std::abs(square - 1) < 2e-3))
-      refuse(
-          "shape cast", i,
-          fmt::format("orientation is [{}, {}, {}, {}]; a quaternion of length 1 is needed", q[0], q[1], q[2], q[3]));
   }
+}
+
+void check_overlaps(const Shape &shape, std::span<const Pose> poses)
+{
+  check_convex(shape, "overlap test", "tested for overlap");
+  check_number(poses.size());
+  for (size_t i = 0; i < poses.size(); ++i) check_pose(poses[i], "overlap test", i);
+}
+
+void tell_queried_bodies(Memory &memory, const Scene &scene, const std::vector<uint32_t> &order,
+                         std::vector<uint32_t> &told)
+{
+  std::vector<uint32_t> bodies;
+  bodies.reserve(4 * order.size());
+  for (const uint32_t body : order)
+    bodies.insert(bodies.end(), {body, scene.bodies[body].filter_group, scene.bodies[body].filter_mask, 0u});
+  if (bodies == told && memory.bytes(Buffer::query_body) == bodies.size() * sizeof(uint32_t)) return;
+  told.clear(); /* an upload that fails leaves the buffer unknown */
+  upload(memory, Buffer::query_body, bodies);
+  told = std::move(bodies);
 }
 
 void launch_query_structure(StepLaunches &step, uint32_t structure)
@@ -289,35 +339,27 @@ std::vector<ShapeCastHit> cast_shapes(const QueryTarget &target, const Shape &sh
                                       std::span<const Vec3> displacements, const QueryFilter &filter)
 {
   if (poses.empty()) return {};
-  Memory &memory = target.memory;
-  std::vector<float4> starts, turns, paths, vertices{{0, 0, 0, 0}}, chunks;
-  std::vector<uint32_t> filters;
+  const uint32_t vertices = upload_shape_queries(target, shape, poses, displacements, filter);
+  reserve_hits(target.memory, poses.size());
+  launch(target, Kernel::cast_shapes, poses.size(), {static_cast<uint32_t>(shape.type), vertices});
+  return take_hits(target.memory, poses.size(), [&](size_t i) -> const Point & { return poses[i].position; });
+}
+
+std::vector<std::vector<uint32_t>> overlap_shapes(const QueryTarget &target, const Shape &shape,
+                                                  std::span<const Pose> poses, const QueryFilter &filter)
+{
+  if (poses.empty()) return {};
+  const uint32_t vertices = upload_shape_queries(target, shape, poses, {}, filter);
+  const uint32_t kind = static_cast<uint32_t>(shape.type) | vertices << SHAPE_KIND_BITS;
+  const std::vector<uint32_t> starts =
+      find_all(target, Kernel::count_shape_overlaps, Kernel::write_shape_overlaps, poses.size(), {kind});
+  const auto bodies = target.memory.read<uint32_t>(Buffer::query_hit_body, starts.back());
+  std::vector<std::vector<uint32_t>> found(poses.size());
   for (size_t i = 0; i < poses.size(); ++i) {
-    const std::array<float4, 2> place = double_float3_of(poses[i].position);
-    const Quat q = unit(poses[i].orientation);
-    starts.insert(starts.end(), place.begin(), place.end());
-    turns.push_back({q[0], q[1], q[2], q[3]});
-    paths.push_back({displacements[i][0], displacements[i][1], displacements[i][2], 1});
-    filters.insert(filters.end(), {filter.group, filter.mask});
+    found[i].assign(bodies.begin() + starts[i], bodies.begin() + starts[i + 1]);
+    std::sort(found[i].begin(), found[i].end());
   }
-  if (shape.hull) {
-    vertices.clear();
-    for (const Vec3 &v : shape.hull->vertices) vertices.push_back({v[0], v[1], v[2], 0});
-  }
-  append_chunks(chunks, vertices, 3);
-  const Vec3 size = kernel_size(shape);
-  upload_filters(memory, target.scene, target.order, filters);
-  upload(memory, Buffer::query_start, starts);
-  upload(memory, Buffer::query_turn, turns);
-  upload(memory, Buffer::query_displacement, paths);
-  upload(memory, Buffer::query_shape, std::vector<float4>{{size[0], size[1], size[2], radius_of(shape)}});
-  upload(memory, Buffer::query_vertex, vertices);
-  upload(memory, Buffer::query_chunk, chunks);
-  set_length(memory, static_cast<uint32_t>(poses.size()));
-  reserve_hits(memory, poses.size());
-  launch(target, Kernel::cast_shapes, poses.size(),
-         {static_cast<uint32_t>(shape.type), static_cast<uint32_t>(vertices.size())});
-  return take_hits(memory, poses.size(), [&](size_t i) -> const Point & { return poses[i].position; });
+  return found;
 }
 
 } // namespace tandem

@@ -1,7 +1,8 @@
 /* queries.h - how the queries of <tandem/queries.h> are answered.
  *
  * The AABBs of the bodies at their present poses, and the structure of the broadphase over them, are made for the first
- * query after a step; every query traverses it (shared/queries/body_walk.h).
+ * query after a change of the state; every query traverses it (shared/queries/body_walk.h). The filters of the bodies
+ * stay where they are until they change. A batch uploads no more than its queries.
  */
 #pragma once
 
@@ -22,17 +23,21 @@ void check_boxes(std::span<const QueryBox> boxes);
 /* Throws InputError also for half-spaces, which cannot be cast, for shapes that no scene could contain, and for lists
  * of different lengths. */
 void check_shape_casts(const Shape &shape, std::span<const Pose> poses, std::span<const Vec3> displacements);
+void check_overlaps(const Shape &shape, std::span<const Pose> poses);
+
+/* Uploads the indices and filters of the bodies, unless they are the ones that were uploaded last, which `told` keeps.
+ * order: body order[i] of the scene is at index i of the body buffers. */
+void tell_queried_bodies(Memory &memory, const Scene &scene, const std::vector<uint32_t> &order,
+                         std::vector<uint32_t> &told);
 
 /* Launches the kernels that make a structure, QUERY_ of shared/body_codes.h. */
 void launch_query_structure(StepLaunches &step, uint32_t structure);
 
-/* The world that answers the queries. structure: the one that was made; order: body order[i] of the scene is at index i
- * of the body buffers. */
+/* The world that answers the queries, which tell_queried_bodies has been called for. structure: the one that was
+ * made. */
 struct QueryTarget {
   Memory &memory;
   Launcher &launcher;
-  const Scene &scene;
-  const std::vector<uint32_t> &order;
   uint32_t structure;
 };
 
@@ -42,5 +47,7 @@ std::vector<std::vector<RayHit>> cast_rays_all(const QueryTarget &target, std::s
 std::vector<std::vector<BoxHit>> cast_boxes(const QueryTarget &target, std::span<const QueryBox> boxes);
 std::vector<ShapeCastHit> cast_shapes(const QueryTarget &target, const Shape &shape, std::span<const Pose> poses,
                                       std::span<const Vec3> displacements, const QueryFilter &filter);
+std::vector<std::vector<uint32_t>> overlap_shapes(const QueryTarget &target, const Shape &shape,
+                                                  std::span<const Pose> poses, const QueryFilter &filter);
 
 } // namespace tandem

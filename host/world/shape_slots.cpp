@@ -27,6 +27,7 @@ ShapeId ShapeSlots::take(const BodyId &body)
   }
   const uint32_t slot = queue_.front();
   queue_.erase(queue_.begin());
+  ++changes_;
   slots_[slot].exists = true;
   slots_[slot].body = body;
   return {slot, slots_[slot].generation};
@@ -35,6 +36,7 @@ ShapeId ShapeSlots::take(const BodyId &body)
 void ShapeSlots::free(const ShapeId &id)
 {
   Slot &slot = slots_[id.index];
+  ++changes_;
   slot.exists = false;
   if (slot.generation == UINT32_MAX) return; /* so that no handle is ever valid twice */
   ++slot.generation;

@@ -39,6 +39,8 @@ public:
   const std::vector<Slot> &slots() const { return slots_; }
   const std::vector<uint32_t> &queue() const { return queue_; }
   const Handles &handles() const { return handles_; }
+  /* Handles made and freed so far. Of two copies of one that went different ways, equal numbers say nothing. */
+  uint64_t changes() const { return changes_; }
 
   /* The handles of a body with so many shapes; makes those that it lacks, at the end. */
   const std::vector<ShapeId> &of(const BodyId &body, size_t shapes);
@@ -54,6 +56,7 @@ private:
   std::vector<Slot> slots_;
   std::vector<uint32_t> queue_; /* free slots */
   Handles handles_;
+  uint64_t changes_ = 0;
 };
 
 } // namespace tandem

@@ -105,6 +105,12 @@ void World::Implementation::count_awake_bodies()
 /* To be called when other bodies sleep than before. */
 void World::Implementation::sleepers_changed()
 {
+  set_of_sleepers = ++sets_of_sleepers;
+  tell_sleepers();
+}
+
+void World::Implementation::tell_sleepers()
+{
   const uint32_t none = 0;
   memory.upload(Buffer::counts, &none, sizeof none, COUNT_SLEEPER_REACH * sizeof none);
   count_bodies(special.awake);
@@ -113,9 +119,7 @@ void World::Implementation::sleepers_changed()
   plan.sleepers = !sleepers.empty();
   plan.other_sleepers = true;
   launcher.set_keeps_sleepers(plan.sleepers);
-  pairs_moved = true;
   cached_pairs = memory.read<uint32_t>(Buffer::cached_start, 1, special.awake).front();
-  ring.forget("bodies fell asleep or woke");
   forget_kept(memory);
   ++state;
 }
@@ -324,13 +328,7 @@ void World::Implementation::wake(const std::set<uint32_t> &islands)
   count_awake_bodies();
   size_t pairs = memory.read<uint32_t>(Buffer::cached_start, 1, special.awake).front();
   for (const uint32_t island : islands) pairs += sleepers.all().at(island).pairs.size();
-  if (pairs > settings.max_pairs)
-    throw std::runtime_error(
-        fmt::format("room for {} pairs is needed to wake {} islands, and {} are the most (--max-pairs, "
-                    "Settings::max_pairs)",
-                    pairs, islands.size(), settings.max_pairs));
-  if (pairs > plan.capacity_pairs)
-    enlarge(static_cast<uint32_t>(std::min<size_t>(pairs + pairs / 4, settings.max_pairs)));
+  if (pairs > plan.capacity_pairs) enlarge(static_cast<uint32_t>(std::min<size_t>(pairs + pairs / 4, most_pairs)));
   keep_order_of_events();
   std::vector<SleepingIsland> woken;
   std::vector<uint32_t> bodies_woken;

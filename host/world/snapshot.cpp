@@ -38,6 +38,12 @@ template <Is<SleepingIsland> T> auto fields_of(T &record)
   return std::tie(bodies, pairs);
 }
 
+template <Is<SleepEvent> T> auto fields_of(T &record)
+{
+  auto &[body, asleep] = record;
+  return std::tie(body, asleep);
+}
+
 template <Is<BodySlots::Free> T> auto fields_of(T &record)
 {
   auto &[slot, since] = record;
@@ -327,6 +333,7 @@ SnapshotContents read_snapshot(std::span<const std::byte> bytes, const std::stri
   reader.get(contents.room);
   reader.get(contents.forces);
   reader.get(contents.drowsy);
+  reader.get(contents.sleep_events);
   reader.get(contents.steps);
   reader.get(contents.overflow);
   reader.get(contents.quarantined);
@@ -352,6 +359,7 @@ void World::Implementation::put_history(ByteWriter &writer) const
   writer.put(plan.bodies);
   writer.put(plan.forces);
   writer.put(plan.drowsy);
+  writer.put(sleep_events_to_come);
   writer.put(statistics.steps);
   writer.put(statistics.overflow);
   writer.put(quarantined);
@@ -494,6 +502,7 @@ std::unique_ptr<World::Implementation> World::Implementation::restored(std::span
   world->statistics.nonfinite = static_cast<uint32_t>(contents.quarantined.size());
   world->quarantined = std::move(contents.quarantined);
   world->fault = contents.fault;
+  world->sleep_events_to_come = std::move(contents.sleep_events); /* and none of those islands' coming here */
   world->cached_pairs = contents.pairs;
   if (old && old->ring.size() > 0)
     world->keep_states(static_cast<uint32_t>(old->ring.size()), old->ring.keeps_after_steps());

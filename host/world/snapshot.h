@@ -42,7 +42,8 @@ struct SnapshotContents {
   std::vector<uint32_t> made_shapes; /* of the scene, that belong to one body alone */
   uint32_t room = 0; /* bodies that the buffers hold; it decides when the median size is computed again */
   bool forces = false;
-  bool drowsy = false; /* StepPlan::drowsy, which decides in which step islands are looked for */
+  bool drowsy = false;                  /* StepPlan::drowsy, which decides in which step islands are looked for */
+  std::vector<SleepEvent> sleep_events; /* those that the next step will report */
   uint64_t steps = 0;
   uint32_t overflow = 0; /* as Statistics::overflow */
   std::vector<Quarantine> quarantined;

@@ -24,7 +24,15 @@ void StateRing::resize(size_t slots, bool after_steps)
   first_change_ = changes();
   changes_.clear();
   shared_ = nullptr;
+  shared_shapes_ = nullptr;
+  shared_sleepers_ = nullptr;
   why_.clear();
+}
+
+KeptState &StateRing::begin() noexcept
+{
+  if (kept_ == slots_.size()) --kept_;
+  return slots_[(newest_ + 1) % slots_.size()];
 }
 
 /* What happened before the oldest state is never undone. */
@@ -43,6 +51,8 @@ void StateRing::rewind(size_t states) noexcept
   kept_ -= states;
   changes_.resize(back(0).changes - first_change_);
   shared_ = back(0).slots;
+  shared_shapes_ = back(0).shape_slots;
+  shared_sleepers_ = back(0).sleepers;
 }
 
 void StateRing::forget(std::string why) noexcept
@@ -50,6 +60,8 @@ void StateRing::forget(std::string why) noexcept
   if (slots_.empty()) return;
   why_ = std::move(why);
   shared_ = nullptr;
+  shared_shapes_ = nullptr;
+  shared_sleepers_ = nullptr;
   kept_ = 0;
   first_change_ = changes();
   changes_.clear();
@@ -59,6 +71,13 @@ std::shared_ptr<const BodySlots> StateRing::shared(const BodySlots &slots)
 {
   if (!shared_) shared_ = std::make_shared<const BodySlots>(slots);
   return shared_;
+}
+
+std::shared_ptr<const ShapeSlots> StateRing::shared(const ShapeSlots &slots)
+{
+  if (!shared_shapes_ || shared_shapes_->changes() != slots.changes())
+    shared_shapes_ = std::make_shared<const ShapeSlots>(slots);
+  return shared_shapes_;
 }
 
 void StateRing::prepare_changes(size_t more)
@@ -109,17 +128,28 @@ void World::Implementation::keep_states(uint32_t states, bool after_steps)
   if (states > 0) keep_state();
 }
 
+std::shared_ptr<const KeptSleepers> World::Implementation::keep_sleepers()
+{
+  std::shared_ptr<const KeptSleepers> &kept = ring.shared_sleepers();
+  if (!kept || kept->number != set_of_sleepers || kept->order.size() != bodies())
+    kept = std::make_shared<const KeptSleepers>(
+        KeptSleepers{set_of_sleepers, special.order, index_of_body, special.large, special.awake, sleepers});
+  return kept;
+}
+
 void World::Implementation::keep_state()
 {
   if (ring.size() == 0) throw InputError("keep_state: there is no room for states; keep_states makes it");
   settle();
-  KeptState &state = ring.next();
+  KeptState &state = ring.begin(); /* a state that is written in part only is not kept */
   for (size_t i = 0; i < buffers.carried().size(); ++i) {
     const Buffer buffer = buffers.carried()[i].now;
     const size_t item = row_of(buffer).per_item * size_of(row_of(buffer).element);
     memory.keep(buffer, items_in_use(memory, buffer, {bodies(), special.awake}, cached_pairs) * item, state.buffers[i]);
   }
   state.slots = ring.shared(slots);
+  state.shape_slots = ring.shared(shapes);
+  if (settings.sleeping) state.sleepers = keep_sleepers();
   state.statistics = statistics;
   state.fault = fault;
   state.quarantined = quarantined.size();
@@ -129,6 +159,7 @@ void World::Implementation::keep_state()
   state.pairs = cached_pairs;
   state.forces = plan.forces;
   state.drowsy = plan.drowsy;
+  state.sleep_events_to_come = sleep_events_to_come;
   state.changes = ring.changes();
   ring.commit();
 }
@@ -171,41 +202,54 @@ std::vector<uint32_t> changed_slots(std::span<const RosterChange> changes, uint3
 
 } // namespace
 
-/* While bodies sleep, no body comes without waking any or making the ring forget. */
 std::vector<std::pair<int, uint32_t>> World::Implementation::entries_then(const KeptState &state) const
 {
-  return entries_of({state.bodies - sleepers.count(), special.unbounded, special.large, sleepers.count()});
+  const uint32_t asleep = state.sleepers ? state.sleepers->sleepers.count() : 0,
+                 large = state.sleepers ? state.sleepers->large : special.large;
+  return entries_of({state.bodies - asleep, special.unbounded, large, asleep});
 }
 
-/* The rows of bodies that only calls change. Those of states come with the carried buffers. */
+/* The rows of bodies that only calls change. Those of states come with the carried buffers. index: of the bodies. */
 void World::Implementation::stage_roster(StagedUploads &uploads, const KeptState &state,
-                                         std::span<const RosterChange> changes) const
+                                         std::span<const RosterChange> changes,
+                                         const std::vector<uint32_t> &index) const
 {
   const HullNumbers numbers = hull_numbers(scene);
   for (const uint32_t slot : changed_slots(changes, state.bodies)) {
     const BodyStatus status = state.slots->status()[slot];
-    if (status == BodyStatus::free) stage_free_rows(uploads, index_of_body[slot], 1);
-    else stage_fixed_rows(uploads, scene, numbers, slot, index_of_body[slot], status);
+    if (status == BodyStatus::free) stage_free_rows(uploads, index[slot], 1);
+    else stage_fixed_rows(uploads, scene, numbers, slot, index[slot], status);
   }
   for (size_t k = changes.size(); k-- > 0;)
     if (changes[k].tree && changes[k].slot < state.bodies)
       uploads.add(Buffer::body_tree, std::vector<uint32_t>(changes[k].tree->begin(), changes[k].tree->end()),
-                  index_of_body[changes[k].slot]);
+                  index[changes[k].slot]);
   for (const auto &[entry, value] : entries_then(state)) uploads.add_count(static_cast<uint32_t>(entry), value);
 }
 
-/* Handles of shapes of bodies that are not there any more, or that another body had in the meantime. */
-void World::Implementation::forget_handles(std::span<const RosterChange> changes, const BodySlots &slots_then)
+/* The rows that states do not hold follow their bodies to the places that they had when others slept. */
+void World::Implementation::reorder_rows(const std::vector<uint32_t> &order)
 {
-  for (const auto &[slot, before, tree] : changes)
-    if (slot >= slots_then.count() || slots.slots()[slot].generation != slots_then.slots()[slot].generation)
-      shapes.forget(slot);
+  std::vector<uint32_t> from, to;
+  for (uint32_t place = 0; place < order.size(); ++place)
+    if (index_of_body[order[place]] != place) {
+      from.push_back(index_of_body[order[place]]);
+      to.push_back(place);
+    }
+  if (from.empty()) return;
+  const auto moved = static_cast<uint32_t>(from.size());
+  memory.upload(Buffer::move_from, from.data(), moved * sizeof(uint32_t));
+  memory.upload(Buffer::move_to, to.data(), moved * sizeof(uint32_t));
+  set_length(memory, moved);
+  for (const BodyRows &rows : body_rows(buffers.needs().touched))
+    if (!is_carried(row_of(rows.from).lifetime)) move_body_rows(launcher, rows, COUNT_LENGTH, moved);
 }
 
 /* Nothing here can fail. */
-void World::Implementation::take_roster(const KeptState &state, BodySlots &slots_then) noexcept
+void World::Implementation::take_roster(const KeptState &state, BodySlots &slots_then, ShapeSlots &shapes_then) noexcept
 {
   std::swap(slots, slots_then);
+  std::swap(shapes, shapes_then);
   special.order.resize(state.bodies);
   special.awake = counted_bodies = state.bodies - sleepers.count();
   scene.bodies.erase(scene.bodies.begin() + state.bodies, scene.bodies.end());
@@ -221,6 +265,25 @@ void World::Implementation::take_roster(const KeptState &state, BodySlots &slots
   order_of_events.clear();
   whole = false;
   ++this->state;
+}
+
+void World::Implementation::take_sleepers(KeptSleepers &then)
+{
+  reorder_rows(then.order);
+  special.order.swap(then.order);
+  index_of_body.swap(then.index_of_body);
+  special.large = then.large;
+  std::swap(sleepers, then.sleepers);
+  set_of_sleepers = then.number;
+}
+
+/* Steps leave the rows of sleepers on both sides. */
+void World::Implementation::put_back_sleepers(const KeptState &then)
+{
+  for (size_t i = 0; i < buffers.carried().size(); ++i)
+    if (row_of(buffers.carried()[i].now).capacity == Capacity::BODIES)
+      memory.put_back(buffers.carried()[i].previous, then.buffers[i]);
+  tell_sleepers();
 }
 
 /* Steps without the stage of forces, as before the first force. */
@@ -256,27 +319,34 @@ void World::Implementation::go_back(uint32_t states)
   if (plan.forces && !then.forces && !module_applies_forces()) drop_forces();
   buffers.make_ready(sizes());
   BodySlots slots_then = *then.slots;
+  ShapeSlots shapes_then = *then.shape_slots;
+  std::vector<SleepEvent> sleep_events_then = then.sleep_events_to_come;
+  const bool others_sleep = then.sleepers && then.sleepers->number != set_of_sleepers;
+  std::optional<KeptSleepers> sleepers_then;
+  if (others_sleep) sleepers_then = *then.sleepers;
   auto entries = entries_then(then);
   const std::span<RosterChange> changes = ring.changes_after(then.changes);
   StagedUploads uploads;
   swap_bodies(scene, changes, true);
   try {
-    stage_roster(uploads, then, changes);
+    stage_roster(uploads, then, changes, others_sleep ? sleepers_then->index_of_body : index_of_body);
     uploads.prepare(memory);
   } catch (...) {
     swap_bodies(scene, changes, false);
     throw;
   }
-  forget_handles(changes, slots_then);
-  take_roster(then, slots_then);
+  if (others_sleep) take_sleepers(*sleepers_then);
+  take_roster(then, slots_then, shapes_then);
   scene_entries.swap(entries);
   for (const auto &[entry, value] : scene_entries) plan.known[static_cast<size_t>(entry)] = value;
   uploads.write(memory);
   for (size_t i = 0; i < buffers.carried().size(); ++i) memory.put_back(buffers.carried()[i].now, then.buffers[i]);
+  if (then.sleepers) put_back_sleepers(then);
   forget_kept(memory);
   ring.rewind(states);
-  pairs_moved = true;
   set_elsewhere.clear();
+  sleep_events.clear();
+  sleep_events_to_come.swap(sleep_events_then);
   plan.drowsy = then.drowsy;
   if (settings.sleeping) recount_motion();
 }

@@ -21,6 +21,8 @@
 
 #include "host/runtime/memory.h"
 #include "host/world/body_slots.h"
+#include "host/world/shape_slots.h"
+#include "host/world/sleepers.h"
 
 namespace tandem {
 
@@ -31,6 +33,14 @@ struct RosterChange {
   std::optional<std::array<uint32_t, 2>> tree; /* its row of body_tree */
 };
 
+/* Who sleeps, and where the bodies lie while these do. */
+struct KeptSleepers {
+  uint64_t number; /* of this set of sleepers; each set has its own */
+  std::vector<uint32_t> order, index_of_body;
+  uint32_t large, awake;
+  Sleepers sleepers;
+};
+
 struct KeptState {
   std::vector<KeptBytes> buffers; /* in the order of the carried ones */
   Statistics statistics;
@@ -38,8 +48,11 @@ struct KeptState {
   size_t quarantined = 0, shapes = 0, materials = 0;
   uint32_t bodies = 0, pairs = 0;
   bool forces = false, drowsy = false; /* of StepPlan */
+  std::vector<SleepEvent> sleep_events_to_come;
   size_t changes = 0; /* of the roster, so far */
   std::shared_ptr<const BodySlots> slots;
+  std::shared_ptr<const ShapeSlots> shape_slots;
+  std::shared_ptr<const KeptSleepers> sleepers; /* null in worlds without Settings::sleeping */
 };
 
 class StateRing {
@@ -50,8 +63,9 @@ public:
   bool keeps_after_steps() const { return after_steps_ && !slots_.empty(); }
   size_t kept() const { return kept_; }
 
-  /* The slot to be written next; commit() makes it the newest state. */
-  KeptState &next() { return slots_[(newest_ + 1) % slots_.size()]; }
+  /* Gives up the oldest state, if there is no room beside it. Returns the slot to be written next, which commit() makes
+   * the newest state. */
+  KeptState &begin() noexcept;
   std::vector<KeptState> &slots() { return slots_; }
   void commit() noexcept;
   KeptState &back(size_t states) { return slots_[(newest_ + slots_.size() - states) % slots_.size()]; }
@@ -60,8 +74,12 @@ public:
   void forget(std::string why) noexcept;
   const std::string &why_forgotten() const { return why_; }
 
-  /* The bodies' slots as they are, shared by all states that have them. */
+  /* The slots as they are, shared by all states that have them. */
   std::shared_ptr<const BodySlots> shared(const BodySlots &slots);
+  std::shared_ptr<const ShapeSlots> shared(const ShapeSlots &slots);
+  /* The sleepers of the newest state that was kept or gone back to, to be shared by states that have the same; may be
+   * null. */
+  std::shared_ptr<const KeptSleepers> &shared_sleepers() { return shared_sleepers_; }
   void prepare_changes(size_t more); /* so that note() cannot fail */
   void note(RosterChange change) noexcept;
   void note(std::vector<RosterChange> &changes) noexcept
@@ -79,6 +97,8 @@ private:
   std::vector<RosterChange> changes_;
   size_t first_change_ = 0; /* the number of the first of them */
   std::shared_ptr<const BodySlots> shared_;
+  std::shared_ptr<const ShapeSlots> shared_shapes_;
+  std::shared_ptr<const KeptSleepers> shared_sleepers_;
   std::string why_;
 };
 

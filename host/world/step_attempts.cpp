@@ -27,27 +27,47 @@ constexpr uint32_t most_rounds = 1 << 20;
 
 } // namespace
 
-void World::Implementation::step()
+void World::Implementation::step(const StepLimits &limits)
 {
+  check_lost();
   if (nothing_moves()) return sleep_on();
   launcher.set_step(statistics.steps);
   ++state;
   const Attempt before{plan, statistics, quarantined.size()};
   try {
+    if (backends.is_waiting()) place_again();
     settle();
     buffers.make_ready(sizes());
     count_awake_bodies();
-    run_until_whole();
+    run_until_whole(limits);
   } catch (...) {
     undo(before);
     tell_why_step_failed();
   }
   whole = true;
   idle = false;
-  if (settings.sleeping) put_to_sleep();
+  if (settings.sleeping) fall_asleep();
   sleep_events = std::exchange(sleep_events_to_come, {});
   quiet_state = state;
   keep_state_of_step();
+}
+
+/* Rows move in place, so half of it cannot be undone. */
+void World::Implementation::fall_asleep()
+{
+  try {
+    put_to_sleep();
+  } catch (const std::exception &error) {
+    lost = fmt::format("bodies could not be put to sleep after step {} ({}); the world cannot go on, and restore() "
+                       "makes it what it was when it was saved",
+                       statistics.steps - 1, error.what());
+    throw std::runtime_error(lost);
+  }
+}
+
+void World::Implementation::check_lost() const
+{
+  if (!lost.empty()) throw std::runtime_error(lost);
 }
 
 /* A step in which nothing moves launches nothing. */
@@ -59,7 +79,27 @@ void World::Implementation::sleep_on()
   keep_state_of_step();
 }
 
-void World::Implementation::run_until_whole()
+/* An attempt without room for all pairs has counted them, and has coloured only some. */
+void World::Implementation::check_limits(const StepLimits &limits) const
+{
+  const auto &known = plan.known;
+  const auto check = [](const char *least, uint32_t needed, uint32_t limit, const char *what) {
+    if (needed > limit)
+      throw LimitExceeded(fmt::format("{}{} {} are needed, and {} are the most that the limits of this step allow",
+                                      least, needed, what, limit));
+  };
+  const bool overflows = (known[COUNT_STATUS] & STATUS_PAIRS) != 0,
+             goes_on = (known[COUNT_STATUS] & STATUS_ROUNDS) != 0;
+  if (overflows) check(candidates_overflow() ? "at least " : "", known[COUNT_PAIRS_NEEDED], limits.pairs, "pairs");
+  if (overflows) return;
+  check("", known[COUNT_PAIRS], limits.pairs, "pairs");
+  check(goes_on ? "at least " : "", known[COUNT_ROUNDS] + (goes_on ? 1 : 0), limits.rounds, "rounds of colouring");
+  if (goes_on) return;
+  check("", known[COUNT_CONSTRAINTS] - known[COLOR_START + COLOR_OVERFLOW], limits.sequential_contacts,
+        "contacts beyond the last colour");
+}
+
+void World::Implementation::run_until_whole(const StepLimits &limits)
 {
   bool may_forget = launches_ended && plan.known[COUNT_KEPT] != 0;
   for (size_t repetition = 0; repetition < most_repetitions + taken_one_by_one; ++repetition) {
@@ -67,6 +107,7 @@ void World::Implementation::run_until_whole()
     launch_step(launcher, plan, settings);
     memory.download(Buffer::counts, plan.known.data(), sizeof plan.known);
     launches_ended = true;
+    check_limits(limits);
     if (plan.known[COUNT_STATUS] == 0) return accept();
     turn_back();
     prepare_repetition(plan.known[COUNT_STATUS], may_forget);
@@ -133,6 +174,8 @@ void World::Implementation::tell_why_step_failed() const
     throw OutOfMemory(told(error.what()));
   } catch (const InputError &error) {
     throw InputError(told(error.what()));
+  } catch (const LimitExceeded &error) {
+    throw LimitExceeded(told(error.what()));
   } catch (const std::bad_alloc &) {
     throw OutOfMemory(told("out of memory"));
   } catch (const std::runtime_error &error) {
@@ -160,7 +203,6 @@ void World::Implementation::accept()
   moved_before.reset();
   ++statistics.steps;
   cached_pairs = plan.known[COUNT_PAIRS];
-  pairs_moved = false;
   plan.rounds = std::clamp<uint32_t>(plan.known[COUNT_ROUNDS] + 3, 4, most_rounds);
   plan.colors = std::min(plan.known[COUNT_COLORS] + 1, COLOR_LIMIT);
   if (plan.known[COUNT_COLORS] > COLOR_LIMIT) plan.colors = COLOR_LIMIT + 1;

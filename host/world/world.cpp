@@ -66,6 +66,14 @@ template <class Work> auto answer(const char *what, size_t bodies, Work work)
       work);
 }
 
+/* The same for what only reads. Reads change what the host knows (they move buffers, and apply calls that wait), so one
+ * waits for the other. */
+template <class Implementation, class Work> auto answer_in_turn(Implementation &world, const char *what, Work work)
+{
+  const std::lock_guard guard(world.reading);
+  return answer(what, world.slots.existing(), work);
+}
+
 } // namespace
 
 namespace {
@@ -80,9 +88,9 @@ template <class... T> void note(const std::unique_ptr<CallLog> &log, RecordedCal
 
 World::~World() = default;
 
-void World::step()
+void World::step(const StepLimits &limits)
 {
-  implementation_->step();
+  implementation_->step(limits);
   implementation_->log_step();
 }
 void World::place(const Placement &placement)
@@ -97,12 +105,16 @@ Features World::features() const { return implementation_->special.features; }
 std::vector<Kernel> World::kernels() const { return implementation_->buffers.needs().kernels; }
 Memory &World::memory() { return implementation_->memory; }
 Backend &World::backend_of(Kernel kernel) { return implementation_->backends.of(kernel); }
-uint32_t World::scene_body(uint32_t buffer_index) const { return implementation_->special.order.at(buffer_index); }
+uint32_t World::scene_body(uint32_t buffer_index) const
+{
+  const std::lock_guard guard(implementation_->reading);
+  return implementation_->special.order.at(buffer_index);
+}
 void World::set_observer(Observer observer) { implementation_->launcher.set_observer(std::move(observer)); }
 
 std::vector<std::byte> World::save()
 {
-  return answer("a snapshot", implementation_->slots.existing(), [&] { return implementation_->save(); });
+  return answer_in_turn(*implementation_, "a snapshot", [&] { return implementation_->save(); });
 }
 
 void World::restore(std::span<const std::byte> snapshot)
@@ -155,7 +167,7 @@ void World::go_back(uint32_t states)
 
 std::vector<BodyState> World::bodies()
 {
-  return answer("the bodies", implementation_->slots.existing(), [&] {
+  return answer_in_turn(*implementation_, "the bodies", [&] {
     implementation_->settle();
     return download_bodies(implementation_->memory, implementation_->special.order);
   });
@@ -163,7 +175,7 @@ std::vector<BodyState> World::bodies()
 
 std::vector<PreciseBodyState> World::precise_bodies()
 {
-  return answer("the bodies", implementation_->slots.existing(), [&] {
+  return answer_in_turn(*implementation_, "the bodies", [&] {
     implementation_->settle();
     return download_precise_bodies(implementation_->memory, implementation_->special.order);
   });
@@ -277,17 +289,22 @@ void World::remove_shapes(std::span<const ShapeId> ids)
 
 std::vector<ShapeId> World::shapes_of(const BodyId &id)
 {
-  std::vector<ShapeId> shapes =
-      answer("shapes of bodies", implementation_->slots.existing(), [&] { return implementation_->shapes_of(id); });
-  note(implementation_->log, RecordedCall::shapes_of, id); /* it makes handles */
-  return shapes;
+  return answer_in_turn(*implementation_, "shapes of bodies", [&] {
+    std::vector<ShapeId> shapes = implementation_->shapes_of(id);
+    note(implementation_->log, RecordedCall::shapes_of, id); /* it makes handles */
+    return shapes;
+  });
 }
 
-BodyId World::body_of(const ShapeId &id) const { return implementation_->shapes.place_of("body_of", id).body; }
+BodyId World::body_of(const ShapeId &id) const
+{
+  const std::lock_guard guard(implementation_->reading);
+  return implementation_->shapes.place_of("body_of", id).body;
+}
 
 std::vector<BodyState> World::read_bodies(std::span<const BodyId> ids)
 {
-  return answer("the bodies", implementation_->slots.existing(), [&] { return implementation_->read(ids); });
+  return answer_in_turn(*implementation_, "the bodies", [&] { return implementation_->read(ids); });
 }
 
 void World::set_states(std::span<const BodyId> ids, std::span<const BodyState> states)
@@ -345,6 +362,7 @@ void World::write_bytes(Buffer buffer, const void *from, size_t bytes, size_t of
 
 size_t World::buffer_bytes(Buffer buffer) const
 {
+  const std::lock_guard guard(implementation_->reading);
   row_of(buffer); /* InputError if there is no buffer of this number */
   return index_of(buffer) < implementation_->buffers.needs().touched.size() ? implementation_->memory.bytes(buffer) : 0;
 }
@@ -354,7 +372,7 @@ void World::read_bytes(Buffer buffer, void *to, size_t bytes)
   if (bytes > buffer_bytes(buffer))
     throw InputError(
         fmt::format("read: buffer '{}' has {} bytes here, not {}", row_of(buffer).name, buffer_bytes(buffer), bytes));
-  answer("a buffer", implementation_->slots.existing(), [&] { implementation_->memory.download(buffer, to, bytes); });
+  answer_in_turn(*implementation_, "a buffer", [&] { implementation_->memory.download(buffer, to, bytes); });
 }
 
 void World::set_gravity(const Vec3 &gravity)
@@ -366,6 +384,7 @@ void World::set_gravity(const Vec3 &gravity)
 
 bool World::is_asleep(const BodyId &id) const
 {
+  const std::lock_guard guard(implementation_->reading);
   return implementation_->sleepers.sleeps(implementation_->slots.slot_of("is_asleep", id));
 }
 
@@ -385,7 +404,7 @@ std::vector<ContactEvent> World::contact_events()
 {
   if (!implementation_->settings.events) throw InputError("contact_events: there are none without Settings::events");
   if (!implementation_->whole || implementation_->idle) return {};
-  return answer("the contact events", implementation_->slots.existing(), [&] {
+  return answer_in_turn(*implementation_, "the contact events", [&] {
     return download_events(implementation_->memory, implementation_->scene, implementation_->events_order());
   });
 }
@@ -394,7 +413,7 @@ std::vector<HitEvent> World::hit_events()
 {
   if (!implementation_->settings.events) throw InputError("hit_events: there are none without Settings::events");
   if (!implementation_->whole || implementation_->idle) return {};
-  return answer("the hit events", implementation_->slots.existing(), [&] {
+  return answer_in_turn(*implementation_, "the hit events", [&] {
     return hits_among(download_events(implementation_->memory, implementation_->scene, implementation_->events_order()),
                       implementation_->settings.hit_speed);
   });
@@ -405,7 +424,7 @@ std::vector<uint32_t> World::moved_bodies()
   if (!implementation_->settings.moved_bodies)
     throw InputError("moved_bodies: there are none without Settings::moved_bodies");
   if (!implementation_->whole) return {};
-  return answer("the moved bodies", implementation_->slots.existing(), [&] { return implementation_->moved_bodies(); });
+  return answer_in_turn(*implementation_, "the moved bodies", [&] { return implementation_->moved_bodies(); });
 }
 
 std::vector<PairEvent> World::pair_events()
@@ -413,40 +432,40 @@ std::vector<PairEvent> World::pair_events()
   if (!implementation_->settings.pair_events)
     throw InputError("pair_events: there are none without Settings::pair_events");
   if (!implementation_->whole || implementation_->idle) return {};
-  return answer("the pair events", implementation_->slots.existing(),
-                [&] { return download_pair_events(implementation_->memory, implementation_->events_order()); });
+  return answer_in_turn(*implementation_, "the pair events",
+                        [&] { return download_pair_events(implementation_->memory, implementation_->events_order()); });
 }
 
 std::vector<RayHit> World::cast_rays(std::span<const Ray> rays)
 {
   check_rays(rays);
   const minicl::ExactFloatingPoint environment;
-  return answer("queries", implementation_->slots.existing(),
-                [&] { return tandem::cast_rays(implementation_->query_target(), rays); });
+  return answer_in_turn(*implementation_, "queries",
+                        [&] { return tandem::cast_rays(implementation_->query_target(), rays); });
 }
 
 std::vector<bool> World::cast_rays_any(std::span<const Ray> rays)
 {
   check_rays(rays);
   const minicl::ExactFloatingPoint environment;
-  return answer("queries", implementation_->slots.existing(),
-                [&] { return tandem::cast_rays_any(implementation_->query_target(), rays); });
+  return answer_in_turn(*implementation_, "queries",
+                        [&] { return tandem::cast_rays_any(implementation_->query_target(), rays); });
 }
 
 std::vector<std::vector<RayHit>> World::cast_rays_all(std::span<const Ray> rays)
 {
   check_rays(rays);
   const minicl::ExactFloatingPoint environment;
-  return answer("queries", implementation_->slots.existing(),
-                [&] { return tandem::cast_rays_all(implementation_->query_target(), rays); });
+  return answer_in_turn(*implementation_, "queries",
+                        [&] { return tandem::cast_rays_all(implementation_->query_target(), rays); });
 }
 
 std::vector<std::vector<BoxHit>> World::cast_boxes(std::span<const QueryBox> boxes)
 {
   check_boxes(boxes);
   const minicl::ExactFloatingPoint environment;
-  return answer("queries", implementation_->slots.existing(),
-                [&] { return tandem::cast_boxes(implementation_->query_target(), boxes); });
+  return answer_in_turn(*implementation_, "queries",
+                        [&] { return tandem::cast_boxes(implementation_->query_target(), boxes); });
 }
 
 std::vector<ShapeCastHit> World::cast_shapes(const Shape &shape, std::span<const Pose> poses,
@@ -454,14 +473,24 @@ std::vector<ShapeCastHit> World::cast_shapes(const Shape &shape, std::span<const
 {
   check_shape_casts(shape, poses, displacements);
   const minicl::ExactFloatingPoint environment;
-  return answer("queries", implementation_->slots.existing(), [&] {
+  return answer_in_turn(*implementation_, "queries", [&] {
     return tandem::cast_shapes(implementation_->query_target(), shape, poses, displacements, filter);
+  });
+}
+
+std::vector<std::vector<uint32_t>> World::overlap_shapes(const Shape &shape, std::span<const Pose> poses,
+                                                         const QueryFilter &filter)
+{
+  check_overlaps(shape, poses);
+  const minicl::ExactFloatingPoint environment;
+  return answer_in_turn(*implementation_, "queries", [&] {
+    return tandem::overlap_shapes(implementation_->query_target(), shape, poses, filter);
   });
 }
 
 Statistics World::statistics()
 {
-  return answer("the statistics", implementation_->slots.existing(), [&] {
+  return answer_in_turn(*implementation_, "the statistics", [&] {
     implementation_->settle();
     Statistics s = implementation_->statistics;
     if (implementation_->whole && !implementation_->idle) measure_contacts(implementation_->memory, s);
@@ -475,7 +504,7 @@ Statistics World::statistics()
 uint64_t World::body_hash()
 {
   const std::vector<Buffer> state{Buffer::body_position, Buffer::body_orientation, Buffer::body_velocity};
-  return answer("the hash", implementation_->slots.existing(), [&] {
+  return answer_in_turn(*implementation_, "the hash", [&] {
     implementation_->settle();
     return hash_buffers(implementation_->memory, state, implementation_->bodies());
   });
@@ -483,7 +512,7 @@ uint64_t World::body_hash()
 
 uint64_t World::state_hash()
 {
-  return answer("the hash", implementation_->slots.existing(), [&] { return implementation_->state_hash(); });
+  return answer_in_turn(*implementation_, "the hash", [&] { return implementation_->state_hash(); });
 }
 
 uint64_t World::Implementation::state_hash()
@@ -496,6 +525,7 @@ uint64_t World::Implementation::state_hash()
 
 void World::finish()
 {
+  if (implementation_->backends.is_waiting()) implementation_->place(implementation_->backends.wanted());
   for (const auto &[text, backend] : implementation_->backends.all()) backend->finish();
 }
 

@@ -14,7 +14,8 @@
  * same bits on every backend. A round that changes nothing is the last; if there was none, the step runs again with
  * more rounds.
  *
- * An island stays awake if one of its bodies is not drowsy or touches a kinematic body that moves.
+ * An island stays awake if one of its bodies is not drowsy, touches a kinematic body that moves, or touches a trigger
+ * while one of the two may move.
  */
 #ifndef TANDEM_SHARED_SLEEPING_ISLANDS_H
 #define TANDEM_SHARED_SLEEPING_ISLANDS_H
@@ -82,6 +83,27 @@ SHARED void keep_carried_awake_item(GLOBAL const uint *constraint_a, GLOBAL cons
   uint a = constraint_a[i], b = constraint_b[i];
   if (is_moving_kinematic(body_flags, solver_velocity, a)) ATOMIC_OR(island_awake + island_label[b], 1u);
   if (is_moving_kinematic(body_flags, solver_velocity, b)) ATOMIC_OR(island_awake + island_label[a], 1u);
+}
+
+SHARED uint may_move(GLOBAL const Parameters *parameters, GLOBAL const uint *body_flags, GLOBAL const uint *rest_count,
+                     GLOBAL const float4 *velocity, uint body)
+{
+  if (is_dynamic(body_flags, body)) return rest_count[body] < parameters->sleep_steps ? 1u : 0u;
+  return is_moving_kinematic(body_flags, velocity, body);
+}
+
+/* A trigger has no constraints. What it touches stays awake while one of the two may move, because the trigger would
+ * wake it again and again. */
+SHARED void keep_triggers_awake_item(GLOBAL const Parameters *parameters, GLOBAL const uint *pair_a,
+                                     GLOBAL const uint *pair_b, GLOBAL const uint *manifold_count,
+                                     GLOBAL const uint *body_flags, GLOBAL const uint *rest_count,
+                                     GLOBAL const float4 *solver_velocity, GLOBAL const uint *island_label,
+                                     GLOBAL uint *island_awake, uint i)
+{
+  uint a = pair_a[i], b = pair_b[i];
+  if (manifold_count[i] == 0u || !is_trigger(body_flags[a] | body_flags[b])) return;
+  if (may_move(parameters, body_flags, rest_count, solver_velocity, a)) ATOMIC_OR(island_awake + island_label[b], 1u);
+  if (may_move(parameters, body_flags, rest_count, solver_velocity, b)) ATOMIC_OR(island_awake + island_label[a], 1u);
 }
 
 SHARED void choose_sleepers_item(GLOBAL const uint *body_flags, GLOBAL const uint *island_label,

@@ -173,7 +173,8 @@ SHARED real approach_to_sleeper(GLOBAL const Parameters *parameters, GLOBAL cons
 {
   spatial_velocity m = load_velocity(body_velocity, body);
   real closing = maximum(R(0.0), R(0.0) - dot3(m.linear, normal)) + radius * length_of(m.angular);
-  return parameters->step * (closing + parameters->step * length_of(gravity_of(parameters)));
+  real pull = magnitude(load_float4(body_velocity, 2u * body + 1u).w) * length_of(gravity_of(parameters));
+  return parameters->step * (closing + parameters->step * pull);
 }
 
 /* Contacts are made ahead of touching; those that stay out of reach in this step wake nobody. Notes the sleepers that

@@ -75,31 +75,53 @@ SHARED first_hit cast_against_body(const query_scene *scene, const moving_convex
   return nearest;
 }
 
-/* vertices: their number if the cast shape is a hull. shape_queries.shape holds its size and bounding radius. */
+/* Query i's shape, seen from its start. vertices: their number if it is a hull. queries.shape holds its size and
+ * bounding radius. */
+SHARED convex load_query_shape(read_shape_queries queries, uint kind, uint vertices, uint i)
+{
+  hull_tables own = {0, queries.vertex, 0, 0, 0, 0, queries.chunk, 0, 0, 0, SUPPORT_BRUTE_FORCE};
+  vec3 none = make_vec3(R(0.0), R(0.0), R(0.0));
+  mat3 rotation = rotation_of(quat_from(load_float4(queries.turn, i)));
+  convex shape = convex_of(SHAPE_BOX, xyz(load_float4(queries.shape, 0u)), rotation, none, none, 0u, own);
+  shape.kind = kind;
+  shape.hull.vertices = vertices;
+  return shape;
+}
+
+/* Starts the search for the bodies that query i's shape may meet along its displacement. */
+SHARED void start_shape_walk(body_walk *walk, const body_structure *bodies, read_shape_queries queries, uint i)
+{
+  real slack = R(1.001) * load_float4(queries.shape, 0u).w; /* includes the touching distance */
+  start_body_walk(walk, bodies, load_position(queries.start, i), xyz(load_float4(queries.displacement, i)),
+                  make_vec3(slack, slack, slack));
+}
+
+SHARED query_scene scene_of_shape_queries(GLOBAL const Parameters *parameters,
+                                          read_search_structures search_structures, read_shapes shapes,
+                                          read_surfaces surfaces, read_trees trees, read_bodies bodies,
+                                          read_shape_queries shape_queries, uint structure)
+{
+  read_queries queries = {shape_queries.body, shape_queries.filter, shape_queries.start, shape_queries.displacement};
+  return query_scene_of(parameters, search_structures, shapes, surfaces, trees, bodies, queries, structure);
+}
+
 SHARED void cast_shapes_item(GLOBAL const Parameters *parameters, read_search_structures search_structures,
                              read_shapes shapes, read_surfaces surfaces, read_trees trees, read_bodies bodies,
                              read_shape_queries shape_queries, write_hits hits, uint kind, uint vertices,
                              uint structure, uint i)
 {
-  read_queries queries = {shape_queries.body, shape_queries.filter, shape_queries.start, shape_queries.displacement};
-  query_scene scene =
-      query_scene_of(parameters, search_structures, shapes, surfaces, trees, bodies, queries, structure);
-  hull_tables own = {0, shape_queries.vertex, 0, 0, 0, 0, shape_queries.chunk, 0, 0, 0, SUPPORT_BRUTE_FORCE};
-  double_float3 start = load_position(shape_queries.start, i);
+  query_scene scene = scene_of_shape_queries(parameters, search_structures, shapes, surfaces, trees, bodies,
+                                             shape_queries, structure);
   vec3 none = make_vec3(R(0.0), R(0.0), R(0.0)), displacement = xyz(load_float4(shape_queries.displacement, i));
-  vec4 size = load_float4(shape_queries.shape, 0u);
-  mat3 rotation = rotation_of(quat_from(load_float4(shape_queries.turn, i)));
-  convex swept = convex_of(SHAPE_BOX, xyz(size), rotation, none, none, 0u, own);
-  swept.kind = kind;
-  swept.hull.vertices = vertices;
+  convex swept = load_query_shape(shape_queries, kind, vertices, i);
   moving_convex moving = moving_convex_of(&swept, none, displacement, none, R(0.0));
   first_hit nearest = nothing_hit();
-  real reach = R(1.0), slack = R(1.001) * size.w; /* includes the touching distance */
+  real reach = R(1.0), radius = load_float4(shape_queries.shape, 0u).w;
   body_walk walk;
-  start_body_walk(&walk, &scene.bodies, start, displacement, make_vec3(slack, slack, slack));
+  start_shape_walk(&walk, &scene.bodies, shape_queries, i);
   for (uint body = next_body_on_path(&walk, &scene.bodies, reach); body != INDEX_NONE;
        body = next_body_on_path(&walk, &scene.bodies, reach)) {
-    nearest = nearer_hit(nearest, cast_against_body(&scene, &moving, size.w, body, i));
+    nearest = nearer_hit(nearest, cast_against_body(&scene, &moving, radius, body, i));
     if (nearest.body != INDEX_NONE) reach = minimum(R(1.0), nearest.fraction);
   }
   store_hit(nearest, hits, i);

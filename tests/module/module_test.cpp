@@ -113,6 +113,24 @@ TEST_CASE("module: what a STATE buffer counts is counted once a step, also of a 
   CHECK(other.read<uint32_t>(probe::buffer::probe_age()).back() == 8);
 }
 
+TEST_CASE("module: what it keeps of a body is 0 for a new one, also at the place of another")
+{
+  for (const bool anew : {false, true}) { /* whether the buffers are laid out anew */
+    World world(balls(5), with(pushing(0)), {"serial", {}});
+    for (int i = 0; i < 3; ++i) world.step();
+    world.destroy_body(world.id_of(2));
+    world.step();
+    if (anew) world.add_shape(sphere_shape(0.2f));
+    Body body;
+    body.shape = anew ? 1 : 0;
+    body.position = {4, 9, 0};
+    REQUIRE(world.create_body(body).index == 2);
+    world.step();
+    CHECK(world.read<uint32_t>(probe::buffer::probe_age()).at(2) == 1);
+    CHECK(world.read<uint32_t>(probe::buffer::probe_age()).at(3) == 5);
+  }
+}
+
 TEST_CASE("module: a kernel between steps changes what the next step starts from")
 {
   for (const std::string &backend : all_backends()) {
@@ -237,7 +255,9 @@ TEST_CASE("module: a snapshot holds what its buffers hold, and asks for the modu
     for (int i = 0; i < 3; ++i) one->step();
   CHECK(restored.state_hash() == world.state_hash());
   CHECK(restored.read<uint32_t>(probe::buffer::probe_age()) == std::vector<uint32_t>(5, 6));
-  CHECK(message_of([&] { World without(snapshot, {"serial", {}}); }) ==
+  CHECK(message_of([&] {
+          World without(snapshot, {"serial", {}});
+        }) ==
         "snapshot: its world had the modules [probe], and [] are given; give extensions of the same modules in the "
         "same order");
   world.restore(snapshot);
@@ -405,7 +425,9 @@ TEST_CASE("module: lists that are added while a world lives are none of its own"
   CHECK(world.statistics().overflow > 0);
   const Buffer late_buffer = buffer_named("late_buffer");
   CHECK(world.buffer_bytes(late_buffer) == 0);
-  CHECK_THAT(message_of([&] { world.run(probe::kernel::probe_sum(), {}, {&late_buffer, 1}); }),
+  CHECK_THAT(message_of([&] {
+               world.run(probe::kernel::probe_sum(), {}, {&late_buffer, 1});
+             }),
              Contains("has room for 0 elements"));
 }
 

@@ -78,3 +78,26 @@ TEST_CASE("parity on CPU: a refused placement changes nothing")
   for (int k = 1; k < 10; ++k) world.step();
   CHECK(world.state_hash() == state_after("spheres:n=20,height=0", "serial", 10));
 }
+
+TEST_CASE("parity on OpenCL: kernels of a new feature run on tbb until the device has them")
+{
+  require_pocl();
+  const Scene scene = load_scene("spheres:n=5,height=0");
+  World serial(scene, {}, {"serial", {}}), device(scene, {}, {"cl:pocl", {}}),
+      waiting(scene, {}, {"cl:pocl", {}, false, false});
+  const auto ran_on = [](World &world) { return world.backend_of(Kernel::integrate_velocities).name().substr(0, 3); };
+  for (World *world : {&serial, &device, &waiting}) {
+    world->step();
+    world->set_damping(world->id_of(3), 1, 1);
+  }
+  CHECK(ran_on(waiting) == "cl:");
+  CHECK(ran_on(device) == "tbb");
+  device.step();
+  serial.step();
+  CHECK(device.state_hash() == serial.state_hash());
+  device.finish();
+  CHECK(ran_on(device) == "cl:");
+  device.step();
+  serial.step();
+  CHECK(device.state_hash() == serial.state_hash());
+}

@@ -1,4 +1,4 @@
-/* Rays and shape casts give the same bits on every backend, with every structure of bodies. */
+/* Rays, shape casts and overlap tests give the same bits on every backend, with every structure of bodies. */
 #include <cstring>
 
 #include "host/base/random.h"
@@ -15,7 +15,8 @@ struct Answers {
   std::vector<bool> blocked;
   std::vector<std::vector<RayHit>> through;
   std::vector<std::vector<BoxHit>> boxes;
-  size_t found = 0;
+  std::vector<std::vector<uint32_t>> overlaps;
+  size_t found = 0, overlapped = 0;
 };
 
 Answers ask(const std::string &scene, Broadphase broadphase, const std::string &backend, size_t queries, int steps)
@@ -53,9 +54,12 @@ Answers ask(const std::string &scene, Broadphase broadphase, const std::string &
     if (shape.type == ShapeType::half_space) continue;
     const std::vector<ShapeCastHit> hits = world.cast_shapes(shape, poses, paths);
     answers.casts.insert(answers.casts.end(), hits.begin(), hits.end());
+    const auto bodies = world.overlap_shapes(shape, poses);
+    answers.overlaps.insert(answers.overlaps.end(), bodies.begin(), bodies.end());
   }
   for (const RayHit &hit : answers.rays) answers.found += hit.body != no_body;
   for (const ShapeCastHit &hit : answers.casts) answers.found += hit.body != no_body;
+  for (const auto &bodies : answers.overlaps) answers.overlapped += bodies.size();
   return answers;
 }
 
@@ -90,6 +94,7 @@ void require_equal_answers(const std::string &scene, const std::vector<std::stri
   const Answers expected = ask(scene, Broadphase::bvh, "serial", queries, steps);
   CAPTURE(scene);
   REQUIRE(expected.found > queries / 4);
+  REQUIRE(expected.overlapped > 0);
   for (const std::string &backend : backends)
     for (const Broadphase broadphase : {Broadphase::bvh, Broadphase::grid, Broadphase::brute_force}) {
       CAPTURE(backend, broadphase);
@@ -99,6 +104,7 @@ void require_equal_answers(const std::string &scene, const std::vector<std::stri
       CHECK(found.blocked == expected.blocked);
       CHECK(same_bits(found.through, expected.through));
       CHECK(same_bits(found.boxes, expected.boxes));
+      CHECK(found.overlaps == expected.overlaps);
     }
 }
 

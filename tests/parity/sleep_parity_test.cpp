@@ -7,7 +7,8 @@ using namespace tandem::parity;
 
 namespace {
 
-/* Heaps that fall asleep one after another, and what wakes some of them: balls, calls, and bodies that go. */
+/* Heaps that fall asleep one after another, and what wakes some of them: balls, calls, bodies that go, and a trigger
+ * that passes. */
 void disturb(World &world, uint64_t step)
 {
   const std::vector<BodyId> ids = world.body_ids();
@@ -37,6 +38,13 @@ Scene heaps()
       body.position = {2.5 * heap + random.uniform(-0.1, 0.1), 0.6 + 1.05 * k, random.uniform(-0.1, 0.1)};
       scene.bodies.push_back(body);
     }
+  Body trigger;
+  trigger.type = BodyType::kinematic;
+  trigger.trigger = true;
+  trigger.shape = 1;
+  trigger.position = {-3, 1, 0};
+  trigger.linear_velocity = {8, 0, 0};
+  scene.bodies.push_back(trigger);
   return scene;
 }
 

@@ -180,3 +180,56 @@ TEST_CASE("tables past what kernels can number are refused by name before they a
   sizes.pairs = (1u << 28) + 1;
   CHECK_THROWS_AS(check_size(Buffer::split_point, sizes), InputError);
 }
+
+namespace {
+
+std::string excess_of(World &world, const StepLimits &limits)
+{
+  try {
+    world.step(limits);
+  } catch (const LimitExceeded &error) {
+    return error.what();
+  }
+  return "";
+}
+
+/* A plate without gravity that so many balls touch, far from each other. */
+Scene laden_plate(uint32_t balls)
+{
+  Scene scene = empty_scene({0, 0, 0});
+  add_body(scene, BodyType::dynamic, box_shape(50, 1, 1), {0, 0, 0});
+  for (uint32_t i = 0; i < balls; ++i)
+    add_body(scene, BodyType::dynamic, sphere_shape(0.3f), {i - 0.5 * balls, 1.299, 0});
+  return scene;
+}
+
+} // namespace
+
+TEST_CASE("a step beyond its budget of pairs fails whole, and within it has the bits that it has without one")
+{
+  World world(dense_cluster(0.001), {}, {"serial", {}}), free(dense_cluster(0.001), {}, {"serial", {}});
+  const uint64_t before = world.state_hash();
+  const std::string message = excess_of(world, {.pairs = all_pairs - 1});
+  CHECK(message.find(fmt::format("step 0: {} pairs are needed, and {} are the most that the limits of this step allow",
+                                 all_pairs, all_pairs - 1)) == 0);
+  CHECK(world.state_hash() == before);
+  CHECK(world.statistics().steps == 0);
+  CHECK(excess_of(world, {.pairs = all_pairs}).empty());
+  free.step();
+  CHECK(world.state_hash() == free.state_hash());
+}
+
+TEST_CASE("a step beyond its budget of colouring says how many contacts have to wait for others")
+{
+  constexpr uint32_t balls = 90, sequential = balls - 63; /* all are contacts of the plate, and 63 colours are there */
+  World world(laden_plate(balls), {}, {"serial", {}}), free(laden_plate(balls), {}, {"serial", {}});
+  const uint64_t before = world.state_hash();
+  const std::string message = excess_of(world, {.sequential_contacts = sequential - 1});
+  CHECK(message.find(fmt::format("{} contacts beyond the last colour", sequential)) != std::string::npos);
+  const std::string rounds = excess_of(world, {.rounds = 1});
+  CHECK(rounds.find("rounds of colouring are needed, and 1 are the most") != std::string::npos);
+  CHECK(world.state_hash() == before);
+  CHECK(excess_of(world, {.pairs = balls, .sequential_contacts = sequential}).empty());
+  free.step();
+  CHECK(world.state_hash() == free.state_hash());
+}

@@ -149,7 +149,7 @@ ReplayOutcome make_again(const ReplayOptions &options, const WorldRecording &rec
 
 int execute(const ReplayOptions &options)
 {
-  Placement placement{options.on, {}, options.inexact};
+  Placement placement{options.on, {}, options.inexact, false};
   if (!options.place.empty()) placement.exceptions = parse_placement(options.place);
   DistinctFiles files;
   options.json.check(files);

@@ -22,6 +22,9 @@ struct Placement {
   std::string on = "tbb";
   std::vector<std::pair<std::string, std::string>> exceptions; /* stage or kernel, and backend; the last that fits */
   bool allow_inexact = false;                                  /* accept a device whose results may differ in bits */
+  /* If calls bring new features into a world, its kernels for OpenCL devices are built on a thread of their own, and
+   * `tbb`, which has all of them, runs them until then, with the same bits. Else the call waits for the compiler. */
+  bool build_in_background = true;
 };
 
 /* Throws InputError if an exception names no stage and no kernel. */

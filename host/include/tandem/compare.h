@@ -7,6 +7,8 @@
  * Only if a hash differs does the reference run again up to that launch, so that the two buffers can be compared
  * number by number. Two numbers that are both NaN count as the same (host/verify/buffer_location.h), because every
  * backend takes a body that stops being finite out at the end of the step.
+ *
+ * Several threads may compare at once.
  */
 #pragma once
 
@@ -41,13 +43,13 @@ TANDEM_API FaultInjector inject_fault(const InjectedFault &error, std::string *m
 
 struct ComparisonRequest {
   Settings settings{};
-  Placement placement{};             /* `on` is replaced by each of the backends */
+  Placement placement{};               /* `on` is replaced by each of the backends */
   std::vector<std::string> backends{}; /* two or more; the first is the reference */
   uint64_t steps = 1;
   /* Optional: World::save(). The worlds begin as it says, with its settings in place of those above; `scene` is then
    * that of the snapshot. It must outlive the comparison. */
   std::span<const std::byte> snapshot{};
-  FaultInjector inject_fault{};                                 /* optional */
+  FaultInjector inject_fault{}; /* optional */
   /* Optional: what a program does with each of the worlds before a step. It must do the same to equal worlds, because
    * worlds are stepped in turn, and again from the start where they differ. */
   std::function<void(World &world, uint64_t step)> before_step{};

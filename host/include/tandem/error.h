@@ -19,4 +19,9 @@ struct TANDEM_API OutOfMemory : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/* A step needed more than its StepLimits allow. The message says what it needs. */
+struct TANDEM_API LimitExceeded : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 } // namespace tandem

@@ -1,5 +1,5 @@
 /* load_scene.h - loads scenes from files and from the catalogue of built-in scenes. It belongs to the library
- * Tandem::io.
+ * Tandem::io. Several threads may load scenes at once.
  *
  *   Scene scene = load_scene("box-grid:nx=8,ny=8,nz=8");
  *   Scene other = load_scene("crane.gltf");

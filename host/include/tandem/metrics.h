@@ -2,7 +2,8 @@
  * the library Tandem::verify.
  *
  * Everything is computed in double on the host from downloaded buffers, and never inside a step, so that measuring
- * cannot change what is measured. docs/metrics.md states each formula, its unit and its source.
+ * cannot change what is measured; it may be called beside other reading of the same world. docs/metrics.md states each
+ * formula, its unit and its source.
  */
 #pragma once
 

@@ -5,7 +5,7 @@
  * function; it runs on every backend with the same bits, and is placed, profiled, debugged in gdb and compared like the
  * pipeline's. The CMake function tandem_add_module() makes a library of the module; its generated header names the
  * module, its kernels and its buffers. An Extension in Settings::extensions adds the module to a world and says what it
- * launches at which points of the step.
+ * launches at which points of the step. Any thread may add modules, also while worlds of others run.
  */
 #pragma once
 

@@ -8,6 +8,8 @@
  *
  * A recording may be cut between two steps, for example because the program crashed: it then ends there, and finished()
  * is false. docs/recordings.md describes the file and the commands that read it.
+ *
+ * Several threads may replay at once, each into a world of its own.
  */
 #pragma once
 

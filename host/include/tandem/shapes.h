@@ -1,7 +1,8 @@
 /* shapes.h - vectors, shapes and the functions that build shapes; scene.h makes bodies of them.
  *
  * Units are SI, coordinates right-handed. Each shape is described in a frame of its own, which a body or a compound
- * places.
+ * places. Shapes are values: the hulls, meshes and compounds that copies of them share never change, also where worlds
+ * of several threads have them.
  */
 #pragma once
 

@@ -4,6 +4,10 @@
  *   for (int i = 0; i < 60; ++i) world.step();
  *   std::vector<BodyState> bodies = world.bodies();
  *
+ * Several worlds may be used in several threads at once. Of one world, calls that read it may be made beside each
+ * other: those that return bodies, properties, handles, events, answers of queries, statistics, hashes, contents of
+ * buffers or a snapshot. A call that changes it may be made beside no other call to it.
+ *
  * A step is applied completely or not at all: overflow grows the buffers and runs the step again, and a body that stops
  * being finite is quarantined and reported.
  */
@@ -74,6 +78,14 @@ struct Statistics {
   uint32_t direct_stalled = 0; /* solves, over the passes of the step, that did not reach their tolerance */
 };
 
+/* What one step may need, for programs that must not wait for a step without bound: a thousand balls in one place are
+ * half a million pairs, and each of them is coloured and solved after others. */
+struct StepLimits {
+  uint32_t pairs = UINT32_MAX;               /* of bodies whose bounds overlap, or of their parts */
+  uint32_t rounds = UINT32_MAX;              /* of colouring: each colours contacts that no other one waits for */
+  uint32_t sequential_contacts = UINT32_MAX; /* beyond the last colour, which are solved one after another */
+};
+
 /* The time of one kernel over the steps since the last call. */
 struct KernelTime {
   Kernel kernel;
@@ -135,8 +147,12 @@ public:
   /* Advances by settings.step. Throws std::runtime_error if a device fails, memory runs out (OutOfMemory: what was
    * requested, and for how many bodies and pairs) or more pairs are found than Settings::max_pairs. The state is then
    * that before the step, and the world can be stepped again as if there had been no attempt. Until a step succeeds
-   * there are no events and no contact figures. */
-  void step();
+   * there are no events and no contact figures. Only if a device fails or memory runs out when the step has been made
+   * and bodies fall asleep, the world cannot go on: this and later calls say so, until restore(). */
+  void step() { step(StepLimits{}); }
+  /* The same with a budget. Throws LimitExceeded, as soon as the step knows that it needs more, and says what. The
+   * state is then that before the step. What the limits do not exceed has the same bits as without them. */
+  void step(const StepLimits &limits);
 
   /* Moves kernels to other backends from the next step on; the results keep their bits. Buffers are moved when they are
    * first needed there. If it throws (InputError, or a device's std::runtime_error), the placement is unchanged. */
@@ -252,7 +268,7 @@ public:
 
   /* Bodies that touch each other fall asleep together when all of them have rested for Settings::sleep_time. They wake
    * when a body that is awake touches one of them, when one of them is changed by a call, and when a body beside them
-   * is destroyed or set elsewhere. Kept states are forgotten when bodies fall asleep or wake. */
+   * is destroyed or set elsewhere. */
   bool is_asleep(const BodyId &id) const;
   void wake_bodies(std::span<const BodyId> ids);
   void wake_body(const BodyId &id) { wake_bodies(std::span(&id, 1)); }
@@ -287,6 +303,11 @@ public:
   /* Casts a convex shape from each pose along a displacement, without rotation; finds where it first touches a body. */
   std::vector<ShapeCastHit> cast_shapes(const Shape &shape, std::span<const Pose> poses,
                                         std::span<const Vec3> displacements, const QueryFilter &filter = {});
+  /* Every body whose shape overlaps a convex shape, for each pose, sorted by body. The test is that of the shapes
+   * themselves, which a shape cast starts with. Bodies that overlap are found, and none that lies apart by more than
+   * rounding, 2e-6 of the sizes of both. Throws InputError as check_overlaps of host/world/queries.h does. */
+  std::vector<std::vector<uint32_t>> overlap_shapes(const Shape &shape, std::span<const Pose> poses,
+                                                    const QueryFilter &filter = {});
 
   /* For modules of Settings::extensions, between steps: runs a kernel over the items of its row, and writes the
    * module's buffers. Throws InputError if the kernel or buffer belongs to no such module, or the bytes do not fit; a
@@ -317,7 +338,8 @@ public:
   const std::vector<Quarantine> &quarantined() const;
   const std::optional<BatchFault> &batch_fault() const; /* the first so far; only with Settings::check */
 
-  /* Waits for the devices, so that a clock read afterwards includes their work. */
+  /* Waits for the devices, so that a clock read afterwards includes their work, and for kernels that are being built
+   * for them (Placement::build_in_background). */
   void finish();
   void set_profiling(bool on);
   std::vector<KernelTime> take_kernel_times();

@@ -42,6 +42,9 @@ public:
   virtual Storage &storage() = 0;
   /* Builds or looks up what the kernels of a scene need; features: FEATURE_ bits. It is called before run. */
   virtual void prepare(Features features, const std::vector<Kernel> &kernels) = 0;
+  /* Whether prepare() would find all of it built; if not, a thread starts to build it, unless one builds already. What
+   * cannot be built counts as built, so that prepare() says why. */
+  virtual bool is_built_ahead(Features, const std::vector<Kernel> &) { return true; }
   /* counts: the handle of Buffer::counts in this backend's storage. The call may return before the work is done. */
   virtual void run(const Launch &launch, const std::vector<BoundArgument> &arguments, void *counts) = 0;
   /* Runs a kernel of execution HOST, which accesses its buffers itself. Only the backend of host/pipeline/cpu_kernels.h

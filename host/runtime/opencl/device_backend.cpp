@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
+#include <future>
 #include <map>
 #include <utility>
 
@@ -43,6 +44,10 @@ constexpr uint64_t never_set = ~uint64_t{0};
 struct Build {
   std::vector<BuiltKernel> kernels = std::vector<BuiltKernel>(all_kernels());
 };
+
+/* The programs of a stage by the features that it reads, and the kernels that each was built for. */
+using ProgramKey = std::pair<Stage, Features>;
+using Programs = std::map<ProgramKey, std::map<Kernel, cl::Program>>;
 
 /* Results do not depend on the size of groups, which tests show by setting it. 0 means that it is not set. */
 size_t group_size_of_tests()
@@ -81,11 +86,32 @@ public:
     const minicl::ExactFloatingPoint environment; /* inherited by threads that the driver may start */
     const auto start = std::chrono::steady_clock::now();
     current_ = &builds_[features];
-    std::map<Stage, std::vector<Kernel>> missing;
+    for (const auto &[key, missing] : programs_missing(features, kernels)) build(key, missing, programs_[key]);
     for (const Kernel kernel : kernels)
-      if (!current_->kernels[index_of(kernel)].kernel()) missing[row_of(kernel).stage].push_back(kernel);
-    for (const auto &[stage, of_stage] : missing) create_kernels(stage, of_stage, features);
+      if (!current_->kernels[index_of(kernel)].kernel())
+        create_kernel(kernel, programs_[key_of(row_of(kernel).stage, features)].at(kernel));
     build_milliseconds += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  }
+
+  bool is_built_ahead(Features features, const std::vector<Kernel> &kernels) override
+  {
+    if (ahead_.valid()) {
+      if (ahead_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return false;
+      try {
+        for (auto &[key, built] : ahead_.get()) programs_[key].merge(built);
+      } catch (const std::exception &) {
+        return true;
+      }
+    }
+    std::map<ProgramKey, std::vector<Kernel>> missing = programs_missing(features, kernels);
+    if (missing.empty()) return true;
+    ahead_ = std::async(std::launch::async, [this, missing = std::move(missing)] {
+      const minicl::ExactFloatingPoint environment; /* inherited by threads that the driver may start */
+      Programs built;
+      for (const auto &[key, unbuilt] : missing) build(key, unbuilt, built[key]);
+      return built;
+    });
+    return false;
   }
 
   void run(const Launch &launch, const std::vector<BoundArgument> &bound, void *counts) override
@@ -129,26 +155,32 @@ private:
                                   context_.info.platform_name, what, row.name, error_name(code)));
   }
 
-  /* Only the requested kernels of a stage's program are compiled (but see part_to_build). */
-  void create_kernels(Stage stage, const std::vector<Kernel> &kernels, Features features)
+  ProgramKey key_of(Stage stage, Features features)
   {
-    const EmbeddedProgram &embedded = embedded_program(name_of(stage));
-    if (!readable_.contains(stage)) readable_[stage] = features_read(embedded); /* searches the whole text */
-    const Features read = features & readable_[stage];
-    std::map<Kernel, cl::Program> &programs = programs_[{stage, read}];
-    std::vector<Kernel> unbuilt;
-    for (const Kernel kernel : kernels)
-      if (!programs.contains(kernel)) unbuilt.push_back(kernel);
-    if (!unbuilt.empty()) build(embedded, unbuilt, registers_for(stage, read), read, programs);
-    for (const Kernel kernel : kernels) create_kernel(kernel, programs.at(kernel));
+    if (!readable_.contains(stage)) /* searches the whole text */
+      readable_[stage] = features_read(embedded_program(name_of(stage)));
+    return {stage, features & readable_[stage]};
   }
 
-  void build(const EmbeddedProgram &embedded, const std::vector<Kernel> &kernels, const std::string &options,
-             Features features, std::map<Kernel, cl::Program> &programs)
+  /* Only the requested kernels of a stage's program are compiled (but see part_to_build). */
+  std::map<ProgramKey, std::vector<Kernel>> programs_missing(Features features, const std::vector<Kernel> &kernels)
   {
+    std::map<ProgramKey, std::vector<Kernel>> missing;
+    for (const Kernel kernel : kernels) {
+      const ProgramKey key = key_of(row_of(kernel).stage, features);
+      if (!programs_[key].contains(kernel)) missing[key].push_back(kernel);
+    }
+    return missing;
+  }
+
+  /* It may run on another thread, so it changes nothing but `programs`. */
+  void build(const ProgramKey &key, const std::vector<Kernel> &kernels, std::map<Kernel, cl::Program> &programs) const
+  {
+    const auto &[stage, features] = key;
     try {
-      const cl::Program program = build_program(context_, part_to_build(embedded, kernels),
-                                                fmt::format("-D FEATURES={:#x}ul", features) + options);
+      const EmbeddedProgram part = part_to_build(embedded_program(name_of(stage)), kernels);
+      const cl::Program program =
+          build_program(context_, part, fmt::format("-D FEATURES={:#x}ul", features) + registers_for(stage, features));
       for (const Kernel kernel : kernels) programs[kernel] = program;
     } catch (const cl::Error &error) {
       fail(row_of(kernels.front()), "creation", error.err());
@@ -278,13 +310,14 @@ private:
   size_t group_size_; /* of all kernels; 0: each kernel's own */
   size_t units_ = context_.device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
   std::map<Stage, Features> readable_; /* the features that the program of a stage reads */
-  std::map<std::pair<Stage, Features>, std::map<Kernel, cl::Program>> programs_; /* Features: those read */
-  std::map<Features, Build> builds_;                                             /* by features */
+  Programs programs_;
+  std::map<Features, Build> builds_; /* by features */
   Build *current_ = nullptr;
   uint32_t launches_ = 0;
   bool profiling_ = false;
   std::vector<std::pair<Kernel, cl_event>> pending_;
   std::vector<Time> times_ = std::vector<Time>(all_kernels());
+  std::future<Programs> ahead_; /* the last member, because its thread uses the others */
 };
 
 } // namespace

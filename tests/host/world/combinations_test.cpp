@@ -106,9 +106,135 @@ TEST_CASE("handles of shapes go with the bodies that going back takes away", "[s
   world.keep_states(2);
   const ShapeId shape = world.shapes_of(world.create_body(body_at({9, 9, 9}, 2))).front();
   world.go_back(0);
-  CHECK_THROWS_WITH(world.body_of(shape), ContainsSubstring("does not exist any more"));
+  CHECK_THROWS_WITH(world.body_of(shape), ContainsSubstring("there is no shape"));
   const World same(world.save(), {"serial", {}});
   CHECK(same.body_count() == 3);
+}
+
+TEST_CASE("a body that going back revives has the handles of shapes that it had", "[sanitizer]")
+{
+  World world(floor_with({body_at({0, 0.5, 0}, 1), body_at({5, 5, 5}, 2)}), {}, {"serial", {}});
+  const ShapeId shape = world.shapes_of(world.id_of(2)).front();
+  world.keep_states(2);
+  world.destroy_body(world.id_of(2));
+  CHECK_THROWS_WITH(world.body_of(shape), ContainsSubstring("does not exist any more"));
+  world.go_back(0);
+  CHECK(world.body_of(shape).index == 2);
+  CHECK(world.shapes_of(world.id_of(2)).front() == shape);
+}
+
+namespace {
+
+/* What a program does before a step; the same again after the world has gone back to it. */
+void call_before(World &world, uint64_t step)
+{
+  const std::vector<BodyId> ids = world.body_ids();
+  const BodyId any = ids[1 + step * 7 % (ids.size() - 1)];
+  if (step % 31 == 30) world.add_impulse(any, {.impulse = {0.3f, 3, 0}});
+  if (step % 47 == 46 && ids.size() > 4) world.destroy_body(any);
+  if (step % 37 == 36) world.create_body(body_at({static_cast<double>(step % 5), 3, 0}, 2));
+  if (step % 53 == 52) world.wake_body(any);
+}
+
+} // namespace
+
+TEST_CASE("going back over steps in which bodies fell asleep and woke makes the same steps again", "[sanitizer]")
+{
+  Settings settings = sleepy();
+  settings.sleep_time = 0.1f;
+  settings.events = true;
+  for (const char *on : {"serial", "tbb:threads=2,lanes=4"}) {
+    World world(floor_with({body_at({0, 0.5, 0}, 1), body_at({0, 1.5, 0}, 1), body_at({3, 0.5, 0}, 1),
+                            body_at({6, 0.25, 0}, 2), body_at({2, 4, 0}, 2)}),
+                settings, {on, {}});
+    world.create_body(body_at({9, 9, 0}, 2)); /* makes room for others */
+    world.keep_states(30);
+    std::vector<uint64_t> hashes;
+    std::vector<uint32_t> asleep;
+    uint32_t crossed = 0;
+    for (uint64_t attempt = 0; hashes.size() < 240; ++attempt) {
+      const uint64_t step = world.statistics().steps;
+      call_before(world, step);
+      world.step();
+      const uint64_t hash = world.state_hash();
+      const uint32_t sleepers = world.statistics().asleep;
+      if (step == hashes.size()) {
+        hashes.push_back(hash);
+        asleep.push_back(sleepers);
+      }
+      CAPTURE(on, step, attempt);
+      REQUIRE(hash == hashes[step]);
+      if (attempt % 13 != 12) continue;
+      const uint32_t back = static_cast<uint32_t>(attempt * 5 % 12);
+      REQUIRE(back < world.states_kept());
+      world.go_back(back);
+      if (back == 0) continue;
+      REQUIRE(world.state_hash() == hashes[step - back]);
+      REQUIRE(world.statistics().asleep == asleep[step - back]);
+      crossed += asleep[step - back] != sleepers;
+    }
+    CHECK(crossed > 3);
+  }
+}
+
+TEST_CASE("who woke before a snapshot is told by the step after it, once", "[sanitizer]")
+{
+  World world(floor_with({body_at({0, 0.5, 0}, 1)}), sleepy(), {"serial", {}});
+  wait_for_sleep(world, 1);
+  world.wake_body(world.id_of(1));
+  const std::vector<std::byte> snapshot = world.save();
+  World restored(snapshot, {"serial", {}});
+  for (World *one : {&world, &restored}) {
+    one->step();
+    REQUIRE(one->sleep_events().size() == 1);
+    CHECK(one->sleep_events().front().body == one->id_of(1));
+    CHECK_FALSE(one->sleep_events().front().asleep);
+    one->step();
+    CHECK(one->sleep_events().empty());
+  }
+}
+
+/* Else no call could free room, because each call wakes first. */
+TEST_CASE("islands wake also where more pairs have come since than a step may have", "[sanitizer]")
+{
+  Settings few = sleepy();
+  few.max_pairs = 3;
+  World world(floor_with({body_at({0, 0.5, 0}, 1), body_at({0, 1.5, 0}, 1)}), few, {"serial", {}});
+  wait_for_sleep(world, 2);
+  world.create_bodies(std::vector<Body>{body_at({9, 0.5, 0}, 1), body_at({9, 1.5, 0}, 1)});
+  for (int k = 0; k < 10; ++k) world.step();
+  world.wake_body(world.id_of(2));
+  CHECK(world.bodies()[2].position[1] == Approx(1.5).margin(0.01));
+  world.destroy_body(world.id_of(4));
+  for (int k = 0; k < 10; ++k) world.step();
+  CHECK(world.bodies()[2].position[1] == Approx(1.5).margin(0.01));
+}
+
+/* The trigger passes over the box for four seconds, of which the box would sleep from the first half on. */
+TEST_CASE("a trigger that moves over a sleeper wakes it once and lets it sleep when it has passed", "[sanitizer]")
+{
+  Body trigger = body_at({-6, 0.5, 0}, 1);
+  trigger.type = BodyType::kinematic;
+  trigger.trigger = true;
+  Settings settings = sleepy();
+  settings.events = true;
+  World world(floor_with({body_at({0, 0.5, 0}, 1), trigger}), settings, {"serial", {}});
+  wait_for_sleep(world, 1);
+  world.set_velocity(world.id_of(2), {{0.5f, 0, 0}, {0, 0, 0}});
+  int woke = 0, slept = 0, began = 0, ended = 0;
+  for (int k = 0; k < 60 * 20; ++k) {
+    world.step();
+    for (const SleepEvent &event : world.sleep_events()) ++(event.asleep ? slept : woke);
+    for (const ContactEvent &event : world.contact_events()) {
+      if (!event.trigger) continue;
+      if (event.kind == ContactEvent::Kind::begin) ++began;
+      if (event.kind == ContactEvent::Kind::end) ++ended;
+    }
+  }
+  CHECK(woke == 1);
+  CHECK(slept == 1);
+  CHECK(began == 1);
+  CHECK(ended == 1);
 }
 
 /* A box is about to fall asleep in one of these steps, and its first speed is below the limit of rest. */

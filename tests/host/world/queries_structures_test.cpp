@@ -26,7 +26,8 @@ struct Answers {
   std::vector<std::vector<RayHit>> through;
   std::vector<std::vector<BoxHit>> boxes;
   std::vector<ShapeCastHit> casts;
-  size_t found = 0;
+  std::vector<std::vector<uint32_t>> overlaps;
+  size_t found = 0, overlapped = 0;
 };
 
 bool same(const QueryHit &p, const QueryHit &q)
@@ -53,12 +54,16 @@ Answers ask(const Scene &scene, const Questions &questions, Broadphase broadphas
             world.cast_rays_any(questions.rays),
             world.cast_rays_all(questions.rays),
             world.cast_boxes(questions.boxes),
+            {},
             {}};
   for (const Shape &shape : {sphere_shape(0.2f), box_shape(0.3f, 0.1f, 0.6f)}) {
     const std::vector<ShapeCastHit> hits = world.cast_shapes(shape, questions.poses, questions.paths, {1, 3});
     a.casts.insert(a.casts.end(), hits.begin(), hits.end());
+    const auto bodies = world.overlap_shapes(shape, questions.poses, {1, 3});
+    a.overlaps.insert(a.overlaps.end(), bodies.begin(), bodies.end());
   }
   for (const auto &hits : a.through) a.found += hits.size();
+  for (const auto &bodies : a.overlaps) a.overlapped += bodies.size();
   return a;
 }
 
@@ -67,6 +72,7 @@ void require_equal_answers(const Scene &scene, const Questions &questions, size_
 {
   const Answers expected = ask(scene, questions, Broadphase::brute_force, "serial");
   CHECK(expected.found >= least);
+  CHECK(expected.overlapped > 0);
   for (const Broadphase broadphase : {Broadphase::brute_force, Broadphase::grid, Broadphase::bvh})
     for (const char *backend : {"serial", "tbb"}) {
       CAPTURE(broadphase, backend);
@@ -76,6 +82,7 @@ void require_equal_answers(const Scene &scene, const Questions &questions, size_
       CHECK(same(found.through, expected.through));
       CHECK(same(found.boxes, expected.boxes));
       CHECK(same(found.casts, expected.casts));
+      CHECK(found.overlaps == expected.overlaps);
     }
 }
 

@@ -76,5 +76,9 @@ inline std::vector<ShapeCastHit> swept_ball(World &world)
   return world.cast_shapes(sphere_shape(0.3f), std::vector<Pose>{{.position = {0, 20, 0}}},
                            std::vector<Vec3>{{0, -30, 0}});
 }
+inline std::vector<std::vector<uint32_t>> overlapped_by_ball(World &world)
+{
+  return world.overlap_shapes(sphere_shape(0.3f), std::vector<Pose>{{.position = {0, 0, 0}}});
+}
 
 } // namespace tandem::fault_scenes
