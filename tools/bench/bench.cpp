@@ -10,6 +10,7 @@
 
 #include "host/catalog/catalog.h"
 #include "tools/bench/batching.h"
+#include "tools/bench/bodies.h"
 #include "tools/bench/broadphase.h"
 #include "tools/bench/narrowphase.h"
 #include "tools/bench/primitives.h"
@@ -177,6 +178,19 @@ int execute_sleeping(const BenchOptions &options)
   return 0;
 }
 
+int execute_bodies(const BenchOptions &options)
+{
+  std::vector<uint64_t> counts{1000, 10000};
+  if (!options.count.empty()) counts = {whole_number("--n", options.count, 1, most_bodies)};
+  options.json.check();
+  std::vector<BodyTimes> times;
+  for (const uint64_t count : counts) times.push_back(bench_bodies(options.on, count, options.inexact));
+  if (!options.json.takes_standard_output())
+    fmt::print("bodies on {}: medians, the wait for the device included\n{}", options.on, bodies_text(times));
+  options.json.write({{"what", options.what}, {"backend", options.on}, {"worlds", bodies_json(times)}});
+  return 0;
+}
+
 /* The exit status is 1 if hill climbing ever ends at another vertex. */
 int execute_support(const BenchOptions &options)
 {
@@ -217,7 +231,7 @@ Json result_json(const BenchOptions &options, const Result &result)
 }
 
 constexpr const char *benchmarks = "sort, scan, broadphase, batching, narrowphase, rays, support, snapshots, "
-                                   "sleeping or step";
+                                   "sleeping, bodies or step";
 
 /* Throws InputError for options of one benchmark that are given to another. */
 void check_options(const BenchOptions &options)
@@ -245,6 +259,7 @@ int execute(const BenchOptions &options)
   if (options.what == "support") return execute_support(options);
   if (options.what == "snapshots") return execute_snapshots(options);
   if (options.what == "sleeping") return execute_sleeping(options);
+  if (options.what == "bodies") return execute_bodies(options);
   const bool step = options.what == "step";
   if (!step && options.what != "sort" && options.what != "scan")
     throw InputError(fmt::format("bench '{}' is unknown; use {}", options.what, benchmarks));
@@ -262,21 +277,23 @@ int execute(const BenchOptions &options)
 Command bench_command(CLI::App &parser)
 {
   CLI::App *command = parser.add_subcommand("bench", "time one part by itself: sort, scan, broadphase, batching, "
-                                                     "narrowphase, rays, support, snapshots, sleeping, step");
+                                                     "narrowphase, rays, support, snapshots, sleeping, bodies, step");
   auto options = std::make_shared<BenchOptions>();
   command
       ->add_option("WHAT", options->what,
                    "sort (32-bit keys with values), scan, broadphase (every one on the same moving bodies), batching "
                    "(scenes of the talks; box-grid with --n), narrowphase (pairs of shapes), rays (against 100,000 "
                    "boxes), support (farthest vertices of hulls), snapshots (states kept on the device, and saved to "
-                   "the host), sleeping (one island awake among bodies that sleep), step (box-grid)")
+                   "the host), sleeping (one island awake among bodies that sleep), bodies (that come and go, and "
+                   "one that is read), step (box-grid)")
       ->required()
       ->type_name("");
   command->add_option("--on", options->on, "backend")->type_name("B")->capture_default_str();
   command
       ->add_option("--n", options->count,
                    "how many: 1048576 keys, 1000 to 1000000 bodies of broadphase, 1000000 rays, 4096 pairs of each "
-                   "kind, 1000 to 100000 bodies of snapshots and sleeping, 1000 bodies of step unless given")
+                   "kind, 1000 to 100000 bodies of snapshots and sleeping, 1000 and 10000 of bodies, 1000 bodies of "
+                   "step unless given")
       ->type_name("N");
   command->add_option("--pairs", options->pairs, "narrowphase: these kinds alone, as box-box,hull32-hull32")
       ->delimiter(',')

@@ -33,7 +33,7 @@ Vector vector_of(const Vec3 &v) { return {double{v[0]}, double{v[1]}, double{v[2
 Vec3 vec3_of(const Vector &v) { return {float(v[0]), float(v[1]), float(v[2])}; }
 
 const Vector to_light = unit({0.5, 1.0, 0.35});
-constexpr Vector ground_color{0.62, 0.64, 0.66};
+constexpr Vector ground_color{0.62, 0.64, 0.66}, sleeper_color{0.42, 0.43, 0.45};
 /* Colour-blind readers can distinguish these colours (Okabe and Ito). */
 constexpr Vector body_colors[] = {{0.90, 0.62, 0.00}, {0.34, 0.71, 0.91}, {0.00, 0.62, 0.45}, {0.94, 0.89, 0.26},
                                   {0.00, 0.45, 0.70}, {0.84, 0.37, 0.00}, {0.80, 0.47, 0.65}};
@@ -72,11 +72,12 @@ Vector sky(const Vector &direction)
   return mixed({0.93, 0.95, 0.97}, {0.55, 0.70, 0.88}, std::clamp(1.6 * unit(direction)[1], 0.0, 1.0));
 }
 
-/* Fixed bodies have a checker pattern of one metre, so that sizes can be read; it fades where a square would be smaller
- * than a pixel. */
-Vector color_of(const Scene &scene, const RayHit &hit, double distance)
+/* Bodies that sleep are grey. Fixed bodies have a checker pattern of one metre, so that sizes can be read; it fades
+ * where a square would be smaller than a pixel. */
+Vector color_of(const World &world, const RayHit &hit, double distance)
 {
-  const Body &body = scene.bodies[hit.body];
+  const Body &body = world.scene().bodies[hit.body];
+  if (world.is_asleep(world.id_of(hit.body))) return sleeper_color;
   if (body.type != BodyType::fixed) return body_colors[(hit.body * 2654435761u >> 8) % std::size(body_colors)];
   const double squares = std::floor(hit.point[0]) + std::floor(hit.point[1] + 0.5) + std::floor(hit.point[2]);
   const double contrast = 0.12 / (1 + distance * distance / 1600);
@@ -108,7 +109,7 @@ std::vector<Vector> colors_along(World &world, const std::vector<Ray> &rays)
     if (hits[k].body == no_body) colors.push_back(sky(vector_of(rays[k].direction)));
     else {
       const Vector displacement = plus(hits[k].point, rays[k].origin, -1);
-      colors.push_back(lit(color_of(world.scene(), hits[k], std::sqrt(dot3(displacement, displacement))),
+      colors.push_back(lit(color_of(world, hits[k], std::sqrt(dot3(displacement, displacement))),
                            vector_of(hits[k].normal), blocked[next++]));
     }
   return colors;

@@ -101,4 +101,28 @@ TEST_CASE("command: recordings that cannot be read or written are refused in one
   check_refused("replay " + path, "the file is damaged");
 }
 
+TEST_CASE("command: bench bodies and bench sleeping have the promised keys", "[command]")
+{
+  const Json bodies = json_of("bench bodies --n 30 --on serial");
+  check_keys(bodies, {"what", "backend", "worlds"});
+  REQUIRE(bodies["worlds"].size() == 1);
+  CHECK(bodies["worlds"][0]["bodies"] == 30);
+  CHECK(bodies["worlds"][0]["first_create_ms"].get<double>() > 0);
+  for (const char *part : {"create_ms", "create_singly_ms", "step_after_create_ms", "destroy_ms", "read_ms"}) {
+    const Json &time = bodies["worlds"][0][part];
+    check_keys(time, {"median", "min", "max"});
+    CHECK(time["min"].get<double>() > 0);
+    CHECK(time["max"] >= time["median"]);
+  }
+  check_refused("bench bodies --n 0", "--n");
+  check_refused("bench bodies --n 4000001", "--n");
+
+  const Json sleeping = json_of("bench sleeping --n 45 --on serial");
+  REQUIRE(sleeping["worlds"].size() == 1);
+  CHECK(sleeping["worlds"][0]["bodies"] == 45);
+  for (const char *part : {"awake_ms", "asleep_ms", "island_ms", "wake_ms", "fall_ms", "read_ms"})
+    CHECK(sleeping["worlds"][0][part]["min"].get<double>() > 0);
+  check_refused("bench sleeping --n 39", "--n");
+}
+
 #endif

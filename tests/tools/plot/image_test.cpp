@@ -60,6 +60,24 @@ TEST_CASE("shadows lie where the ball is between floor and light")
   CHECK(shadow < lit - 60);
 }
 
+TEST_CASE("a picture shows bodies that sleep in grey, and in their colour when they wake")
+{
+  Settings settings;
+  settings.sleeping = true;
+  World world(ball_on_floor(), settings);
+  const Camera camera = camera_from("0,1,10,0,1,0", 80, 50);
+  const auto saturation_of_ball = [&] {
+    const Pixel ball = pixel(draw(world, camera), camera, 40, 25);
+    return std::abs(ball[0] - ball[2]) + std::abs(ball[0] - ball[1]);
+  };
+  CHECK(saturation_of_ball() > 40);
+  for (int k = 0; k < 120 && !world.is_asleep(world.id_of(1)); ++k) world.step();
+  REQUIRE(world.is_asleep(world.id_of(1)));
+  CHECK(saturation_of_ball() < 20);
+  world.wake_body(world.id_of(1));
+  CHECK(saturation_of_ball() > 40);
+}
+
 TEST_CASE("a picture has the same bytes on every backend, and its camera finds what there is to see")
 {
   std::vector<uint8_t> first;
