@@ -230,10 +230,12 @@ uint32_t World::body_count() const { return implementation_->slots.existing(); }
 
 std::vector<BodyId> World::create_bodies(std::span<const Body> bodies)
 {
-  std::vector<BodyId> ids =
-      answer("new bodies", implementation_->slots.existing(), [&] { return implementation_->create(bodies); });
-  note(implementation_->log, RecordedCall::create_bodies, bodies, ids);
-  return ids;
+  return answer("new bodies", implementation_->slots.existing(), [&] {
+    const std::vector<Body> given(bodies.begin(), bodies.end()); /* they may be those of scene(), which move */
+    std::vector<BodyId> ids = implementation_->create(given);
+    note(implementation_->log, RecordedCall::create_bodies, std::span<const Body>(given), ids);
+    return ids;
+  });
 }
 
 void World::destroy_bodies(std::span<const BodyId> ids)
@@ -246,7 +248,7 @@ uint32_t World::add_shape(const Shape &shape)
 {
   const uint32_t index =
       answer("a shape", implementation_->slots.existing(), [&] { return implementation_->add_shape(shape); });
-  note(implementation_->log, RecordedCall::add_shape, shape, index);
+  note(implementation_->log, RecordedCall::add_shape, scene().shapes[index], index); /* `shape` may have moved */
   return index;
 }
 
@@ -254,7 +256,7 @@ uint32_t World::add_material(const Material &material)
 {
   const uint32_t index =
       answer("a material", implementation_->slots.existing(), [&] { return implementation_->add_material(material); });
-  note(implementation_->log, RecordedCall::add_material, material, index);
+  note(implementation_->log, RecordedCall::add_material, scene().materials[index], index);
   return index;
 }
 
@@ -274,10 +276,12 @@ Body World::body_description(const BodyId &id) const
 std::vector<ShapeId> World::add_shapes(std::span<const BodyId> ids, std::span<const Child> shapes)
 {
   const minicl::ExactFloatingPoint environment;
-  std::vector<ShapeId> added = answer("shapes of bodies", implementation_->slots.existing(),
-                                      [&] { return implementation_->add_shapes(ids, shapes); });
-  note(implementation_->log, RecordedCall::add_shapes, ids, shapes, added);
-  return added;
+  return answer("shapes of bodies", implementation_->slots.existing(), [&] {
+    const std::vector<Child> given(shapes.begin(), shapes.end()); /* they may be those of a compound that goes */
+    std::vector<ShapeId> added = implementation_->add_shapes(ids, given);
+    note(implementation_->log, RecordedCall::add_shapes, ids, std::span<const Child>(given), added);
+    return added;
+  });
 }
 
 void World::remove_shapes(std::span<const ShapeId> ids)
@@ -483,9 +487,8 @@ std::vector<std::vector<uint32_t>> World::overlap_shapes(const Shape &shape, std
 {
   check_overlaps(shape, poses);
   const minicl::ExactFloatingPoint environment;
-  return answer_in_turn(*implementation_, "queries", [&] {
-    return tandem::overlap_shapes(implementation_->query_target(), shape, poses, filter);
-  });
+  return answer_in_turn(*implementation_, "queries",
+                        [&] { return tandem::overlap_shapes(implementation_->query_target(), shape, poses, filter); });
 }
 
 Statistics World::statistics()

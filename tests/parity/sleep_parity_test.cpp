@@ -114,7 +114,7 @@ TEST_CASE("a snapshot with sleepers goes on with the same bits on another backen
 /* The scene must do what it is for. */
 TEST_CASE("the scene of the parity of sleep falls asleep and wakes", "[sanitizer]")
 {
-  const ComparisonRequest request = request_on({"serial"}, 300, Broadphase::grid);
+  const ComparisonRequest request = request_on({"serial"}, 600, Broadphase::grid);
   World world(heaps(), request.settings, {"serial", {}});
   uint32_t fell = 0, woke = 0;
   for (uint64_t step = 0; step < request.steps; ++step) {

@@ -16,6 +16,7 @@
 #include "host/pipeline/solvers/island_solver.h"
 #include "host/runtime/interface/floating_point.h"
 #include "host/runtime/memory.h"
+#include "minicl/thread_sanitizer.h"
 #include "minicl/worker_threads.h"
 
 #define TANDEM_REFERENCE
@@ -409,9 +410,16 @@ void solve_islands(const Launch &launch, Memory &memory)
   Rows rows(memory, counts);
   const std::vector<std::vector<uint32_t>> islands = find_islands(rows);
   std::vector<Outcome> outcomes(islands.size(), Outcome::left);
+  const auto solve = [&](size_t k) { outcomes[k] = solve_one(rows, islands[k], launch.values.at(0)); };
   minicl::settle_threads();
-  tbb::parallel_for(size_t{0}, islands.size(),
-                    [&](size_t k) { outcomes[k] = solve_one(rows, islands[k], launch.values.at(0)); });
+  minicl::LaunchOrder order;
+  order.launch_begins();
+  tbb::parallel_for(size_t{0}, islands.size(), [&](size_t k) TANDEM_UNWATCHED {
+    order.items_begin();
+    solve(k);
+    order.items_end();
+  });
+  order.launch_ends();
   if (std::any_of(outcomes.begin(), outcomes.end(), [](Outcome outcome) { return outcome != Outcome::left; }))
     rows.write(memory);
   write_counts(memory, outcomes, islands, counts[COUNT_DIRECT_STALLED]);
