@@ -206,6 +206,7 @@ struct World::Implementation {
   void keep_order_of_events();
   void put_to_sleep();
   void take_fallen(const std::vector<uint32_t> &falls, const std::vector<uint32_t> &labels);
+  void move_rows(const std::vector<uint32_t> &from, const std::vector<uint32_t> &to, bool carried);
   void bring_forward(const std::vector<uint32_t> &woken);
   void return_pairs(const std::vector<SleepingIsland> &islands, uint32_t first);
   void wake(const std::set<uint32_t> &islands);

@@ -238,6 +238,19 @@ void World::Implementation::take_fallen(const std::vector<uint32_t> &falls, cons
   awake_dynamics -= static_cast<uint32_t>(fallen.size());
 }
 
+/* Moves rows of bodies from one place to another on the devices, all at once; carried: also the rows that steps hand
+ * on. */
+void World::Implementation::move_rows(const std::vector<uint32_t> &from, const std::vector<uint32_t> &to, bool carried)
+{
+  if (from.empty()) return;
+  const auto moved = static_cast<uint32_t>(from.size());
+  memory.upload(Buffer::move_from, from.data(), moved * sizeof(uint32_t));
+  memory.upload(Buffer::move_to, to.data(), moved * sizeof(uint32_t));
+  set_length(memory, moved);
+  for (const BodyRows &rows : body_rows(buffers.needs().touched))
+    if (carried || !is_carried(row_of(rows.from).lifetime)) move_body_rows(launcher, rows, COUNT_LENGTH, moved);
+}
+
 /* Moves bodies that lie behind those awake to the end of those awake; what lies there takes their places. */
 void World::Implementation::bring_forward(const std::vector<uint32_t> &woken)
 {
@@ -258,11 +271,7 @@ void World::Implementation::bring_forward(const std::vector<uint32_t> &woken)
     if (!moving.contains(special.order[i])) from.push_back(i);
   to.insert(to.end(), vacated.begin(), vacated.end());
 
-  memory.upload(Buffer::move_from, from.data(), from.size() * sizeof(uint32_t));
-  memory.upload(Buffer::move_to, to.data(), to.size() * sizeof(uint32_t));
-  set_length(memory, static_cast<uint32_t>(from.size()));
-  for (const BodyRows &rows : body_rows(buffers.needs().touched))
-    move_body_rows(launcher, rows, COUNT_LENGTH, static_cast<uint32_t>(from.size()));
+  move_rows(from, to, true);
   std::vector<uint32_t> moved;
   for (const uint32_t place : from) moved.push_back(special.order[place]);
   for (size_t k = 0; k < to.size(); ++k) {

@@ -133,7 +133,7 @@ std::shared_ptr<const KeptSleepers> World::Implementation::keep_sleepers()
   std::shared_ptr<const KeptSleepers> &kept = ring.shared_sleepers();
   if (!kept || kept->number != set_of_sleepers || kept->order.size() != bodies())
     kept = std::make_shared<const KeptSleepers>(
-        KeptSleepers{set_of_sleepers, special.order, index_of_body, special.large, special.awake, sleepers});
+        KeptSleepers{set_of_sleepers, special.order, index_of_body, special.large, sleepers});
   return kept;
 }
 
@@ -236,13 +236,7 @@ void World::Implementation::reorder_rows(const std::vector<uint32_t> &order)
       from.push_back(index_of_body[order[place]]);
       to.push_back(place);
     }
-  if (from.empty()) return;
-  const auto moved = static_cast<uint32_t>(from.size());
-  memory.upload(Buffer::move_from, from.data(), moved * sizeof(uint32_t));
-  memory.upload(Buffer::move_to, to.data(), moved * sizeof(uint32_t));
-  set_length(memory, moved);
-  for (const BodyRows &rows : body_rows(buffers.needs().touched))
-    if (!is_carried(row_of(rows.from).lifetime)) move_body_rows(launcher, rows, COUNT_LENGTH, moved);
+  move_rows(from, to, false);
 }
 
 /* Nothing here can fail. */

@@ -37,7 +37,7 @@ struct RosterChange {
 struct KeptSleepers {
   uint64_t number; /* of this set of sleepers; each set has its own */
   std::vector<uint32_t> order, index_of_body;
-  uint32_t large, awake;
+  uint32_t large;
   Sleepers sleepers;
 };
 
