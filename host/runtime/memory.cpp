@@ -255,9 +255,15 @@ Memory::Copy &Memory::most_precise(Entry &entry)
 std::vector<double> Memory::read_reals(Buffer buffer, size_t count, size_t first)
 {
   std::vector<double> values(count);
-  Copy &copy = most_precise(entries_[index_of(buffer)]);
-  if (count > 0) copy.storage->read_reals(copy.handle, first, values.data(), count);
+  read_reals(buffer, values.data(), count, first);
   return values;
+}
+
+void Memory::read_reals(Buffer buffer, double *to, size_t count, size_t first)
+{
+  if (count == 0) return;
+  Copy &copy = most_precise(entries_[index_of(buffer)]);
+  copy.storage->read_reals(copy.handle, first, to, count);
 }
 
 void Memory::write_reals(Buffer buffer, const double *from, size_t count, size_t first)
@@ -266,9 +272,10 @@ void Memory::write_reals(Buffer buffer, const double *from, size_t count, size_t
   Entry &entry = entries_[index_of(buffer)];
   Copy &wide = most_precise(entry);
   if (!wide.storage->keeps_doubles()) {
-    std::vector<float> rounded(count);
-    std::transform(from, from + count, rounded.begin(), [](double x) { return round_to_float(x); });
-    return upload(buffer, rounded.data(), count * sizeof(float), first * sizeof(float));
+    rounded_.reserve(entry.bytes / sizeof(float)); /* for any later write to the buffer, too */
+    rounded_.resize(count);
+    std::transform(from, from + count, rounded_.begin(), [](double x) { return round_to_float(x); });
+    return upload(buffer, rounded_.data(), count * sizeof(float), first * sizeof(float));
   }
   wide.storage->write_reals(wide.handle, first, from, count);
   for (Copy &other : entry.copies) other.valid = &other == &wide;

@@ -100,6 +100,7 @@ public:
 
   /* Scalars of a buffer of float4s or reals, in double if a backend has left them in double. */
   std::vector<double> read_reals(Buffer buffer, size_t count, size_t first = 0);
+  void read_reals(Buffer buffer, double *to, size_t count, size_t first = 0);
   /* Writes doubles if the buffer is now in double; otherwise they are rounded to floats. */
   void write_reals(Buffer buffer, const double *from, size_t count, size_t first = 0);
 
@@ -123,6 +124,7 @@ private:
   void release(Entry &entry) noexcept;
 
   std::vector<Entry> entries_; /* one for each buffer that existed when the memory was made */
+  std::vector<float> rounded_; /* by write_reals; kept, so that kernels of the host write without allocating */
   uint64_t uploaded_bytes_ = 0;
 };
 

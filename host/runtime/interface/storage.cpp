@@ -55,11 +55,18 @@ Storage &host_storage()
   return storage;
 }
 
+/* The floats are read into the second half of the result and widened from there, so that nothing is allocated: the
+ * i-th double ends where the i-th float does, or before. */
 void Storage::read_reals(void *handle, size_t first, double *to, size_t count)
 {
-  std::vector<float> values(count);
-  read(handle, first * sizeof(float), values.data(), count * sizeof(float));
-  std::copy(values.begin(), values.end(), to);
+  const size_t bytes = count * sizeof(float);
+  char *const floats = reinterpret_cast<char *>(to) + bytes;
+  read(handle, first * sizeof(float), floats, bytes);
+  for (size_t i = 0; i < count; ++i) {
+    float value;
+    std::memcpy(&value, floats + i * sizeof value, sizeof value);
+    to[i] = value;
+  }
 }
 
 } // namespace tandem
