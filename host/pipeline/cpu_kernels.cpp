@@ -1,4 +1,4 @@
-/* cpu_kernels.cpp - the backend that calls the functions of CPU-only kernels; see cpu_kernels.h. */
+/* cpu_kernels.cpp - the backend that runs CPU-only kernels; see cpu_kernels.h. */
 #include "host/pipeline/cpu_kernels.h"
 
 #include <array>
@@ -12,16 +12,11 @@
 namespace tandem {
 namespace {
 
-using CpuKernel = void (*)(const Launch &launch, Memory &memory);
-
 #define EXECUTION_ITEM(name) nullptr
 #define EXECUTION_LANES(name) nullptr
 #define EXECUTION_GROUP(name) nullptr
-#define EXECUTION_HOST(name) &name
+#define EXECUTION_HOST(name) make_##name()
 #define KERNEL(name, stage, execution, items, feature, arguments) EXECUTION_##execution(name),
-constexpr std::array<CpuKernel, kernel_count> stages = {
-#include "shared/kernels.def"
-};
 
 class CpuKernels : public Backend {
 public:
@@ -41,7 +36,7 @@ public:
   {
     const minicl::ExactFloatingPoint environment;
     const auto start = std::chrono::steady_clock::now();
-    stages[index_of(launch.kernel)](launch, memory);
+    kernels_[index_of(launch.kernel)]->run(launch, memory);
     if (!profiling_) return;
     Time &time = times_[index_of(launch.kernel)];
     time.nanoseconds += std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - start).count();
@@ -50,6 +45,9 @@ public:
 
 private:
   std::string name_ = cpu_kernels_name;
+  std::array<std::unique_ptr<CpuKernel>, kernel_count> kernels_ = {
+#include "shared/kernels.def"
+  };
   bool profiling_ = false;
   std::vector<Time> times_ = std::vector<Time>(kernel_count);
 };

@@ -14,7 +14,7 @@ if(TANDEM_OBJECTS_FROM)
   set(heap_sources ${heap_objects})
 endif()
 if(TARGET probe) # no test of it is for sanitizers, whose trees have no module
-  list(APPEND heap_sources heap/long_run.cpp heap/steady_steps.cpp)
+  list(APPEND heap_sources heap/long_run.cpp heap/malloc_calls.cpp heap/steady_steps.cpp)
 endif()
 tandem_catch2_tests(tandem_heap_tests ${heap_sources})
 if(TARGET probe)

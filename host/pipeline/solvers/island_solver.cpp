@@ -4,6 +4,9 @@
  * Results must be the same on every processor. Eigen's blocked products and factorisations split their sums by the size
  * of the caches, so only its vectors are used, and elimination goes row by row. Manifolds are ordered so that
  * neighbours are near each other; the matrix then has a small bandwidth b, and a stack costs n b^2 instead of n^3.
+ *
+ * A step solves many islands in many passes, so all vectors and matrices lie in an arena that the caller keeps. Eigen's
+ * own would allocate in each solve.
  */
 #include "host/pipeline/solvers/island_solver.h"
 
@@ -15,8 +18,15 @@
 namespace tandem {
 namespace {
 
-using Vector = Eigen::VectorXd;
-using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using Vector = Eigen::Map<Eigen::VectorXd>;
+using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using Matrix = Eigen::Map<RowMajor>;
+
+/* The range of columns in which a row of a matrix is not zero. */
+struct Reach {
+  Eigen::Index first, last;
+};
+
 
 /* Four points of a face can carry one load in many ways, and each float is rounded a little differently, so that none
  * of these ways fits exactly. A compliance, relative to each row's own response, selects the solution nearest to the
@@ -30,18 +40,15 @@ constexpr int rounds = 4, newton_limit = 16, first_iterations = 32;
  * problem is easy, and then smaller ones. */
 constexpr double softened[] = {1, 0.3, 0.1, 0.03, 0.01, 1e-3, 1e-4};
 
-/* Gaussian elimination with partial pivoting on rows that are non-zero only in [0, ends[i]). The solution replaces
- * `right`; returns false if the matrix is singular. */
-bool eliminate(Matrix &a, Vector &right)
+/* Gaussian elimination with partial pivoting on rows that are non-zero only in [0, ends[i]), which it computes. The
+ * solution replaces `right`; returns false if the matrix is singular. */
+bool eliminate(Matrix &a, Vector &right, Eigen::Index *ends)
 {
   const Eigen::Index n = a.rows();
-  std::vector<Eigen::Index> ends(static_cast<size_t>(n));
   for (Eigen::Index i = 0; i < n; ++i) {
-    Eigen::Index end = n;
-    while (end > 0 && a(i, end - 1) == 0) --end;
-    ends[static_cast<size_t>(i)] = end;
+    ends[i] = n;
+    while (ends[i] > 0 && a(i, ends[i] - 1) == 0) --ends[i];
   }
-  const auto end_of = [&](Eigen::Index i) -> Eigen::Index & { return ends[static_cast<size_t>(i)]; };
   for (Eigen::Index k = 0; k < n; ++k) {
     Eigen::Index pivot = k;
     for (Eigen::Index i = k + 1; i < n; ++i)
@@ -50,19 +57,19 @@ bool eliminate(Matrix &a, Vector &right)
     if (pivot != k) {
       a.row(pivot).swap(a.row(k));
       std::swap(right[pivot], right[k]);
-      std::swap(end_of(pivot), end_of(k));
+      std::swap(ends[pivot], ends[k]);
     }
-    const Eigen::Index length = end_of(k) - k;
+    const Eigen::Index length = ends[k] - k;
     for (Eigen::Index i = k + 1; i < n; ++i) {
       if (a(i, k) == 0) continue;
       const double share = a(i, k) / a(k, k);
       a.row(i).segment(k, length) -= share * a.row(k).segment(k, length);
       right[i] -= share * right[k];
-      end_of(i) = std::max(end_of(i), end_of(k));
+      ends[i] = std::max(ends[i], ends[k]);
     }
   }
   for (Eigen::Index k = n; k-- > 0;) {
-    for (Eigen::Index c = k + 1; c < end_of(k); ++c) right[k] -= a(k, c) * right[c];
+    for (Eigen::Index c = k + 1; c < ends[k]; ++c) right[k] -= a(k, c) * right[c];
     right[k] /= a(k, k);
   }
   return true;
@@ -70,11 +77,13 @@ bool eliminate(Matrix &a, Vector &right)
 
 class IslandSolver {
 public:
-  explicit IslandSolver(IslandProblem &problem)
-      : problem_(problem), n_(problem.rows), matrix_(Eigen::Map<const Matrix>(problem.matrix.data(), n_, n_)),
-        offset_(Eigen::Map<const Vector>(problem.offset.data(), n_)), step_(n_), speed_(n_), map_(n_)
+  IslandSolver(IslandProblem &problem, Arena &arena)
+      : problem_(problem), arena_(arena), n_(problem.rows), reach_(arena.take<Reach>(problem.rows)),
+        ends_(arena.take<Eigen::Index>(problem.rows)), coupled_(arena.take<Eigen::Index>(problem.rows)),
+        is_coupled_(arena.take<bool>(problem.rows))
   {
-    guess_ = Eigen::Map<const Vector>(problem.impulse.data(), n_);
+    matrix_ = Eigen::Map<const RowMajor>(problem.matrix.data(), n_, n_);
+    guess_ = x_ = Eigen::Map<const Eigen::VectorXd>(problem.impulse.data(), n_);
     own_ = matrix_.diagonal();
     yield(compliance, guess_);
     for (Eigen::Index i = 0; i < n_; ++i) step_[i] = 1 / matrix_(i, i);
@@ -84,33 +93,29 @@ public:
       Eigen::Index first = 0, last = n_;
       while (first < i && matrix_(i, first) == 0) ++first;
       while (last > i + 1 && matrix_(i, last - 1) == 0) --last;
-      reach_.push_back({first, last});
+      reach_[i] = {first, last};
     }
   }
 
   IslandResult run()
   {
-    Vector x = Eigen::Map<const Vector>(problem_.impulse.data(), n_);
-    admit(x);
-    best_ = x;
-    result_.residual = residual(x);
+    admit(x_);
+    best_ = x_;
+    result_.residual = residual(x_);
     for (int round = 0; round < rounds && !result_.converged; ++round) {
-      newton(x, round % 2 == 0);
+      newton(x_, round % 2 == 0);
       if (result_.converged) break;
-      if (residual(x) > result_.residual) x = best_;
-      if (round > 0) soften(x);
-      iterate(x, first_iterations << round);
+      if (residual(x_) > result_.residual) x_ = best_;
+      if (round > 0) soften(x_);
+      iterate(x_, first_iterations << round);
     }
     std::copy_n(best_.data(), n_, problem_.impulse.begin());
     return result_;
   }
 
 private:
-  /* The range of columns in which a row of the matrix is not zero. */
-  struct Reach {
-    Eigen::Index first, last;
-  };
-  const Reach &reach(Eigen::Index i) const { return reach_[static_cast<size_t>(i)]; }
+  Vector vector() { return {arena_.take<double>(static_cast<size_t>(n_)), n_}; }
+  Matrix square() { return {arena_.take<double>(static_cast<size_t>(n_ * n_)), n_, n_}; }
 
   static Eigen::Index tangent(const ManifoldRows &m) { return m.first + m.normals; }
   static Eigen::Index twist(const ManifoldRows &m) { return tangent(m) + (m.slides ? 2 : 0); }
@@ -126,7 +131,6 @@ private:
 
   void soften(Vector &x)
   {
-    Vector change;
     for (const double share : softened) {
       yield(share, x);
       for (int k = 0; k < newton_limit / 2; ++k) {
@@ -134,7 +138,7 @@ private:
         const double before = merit();
         linearise(x);
         ++result_.newton_steps;
-        if (!newton_change(change) || !change.allFinite() || !search(x, change, before)) break;
+        if (!newton_change() || !change_.allFinite() || !search(x, before)) break;
       }
       admit(x);
     }
@@ -160,7 +164,7 @@ private:
   {
     for (Eigen::Index i = 0; i < n_; ++i) {
       double sum = offset_[i];
-      for (Eigen::Index k = reach(i).first; k < reach(i).last; ++k) sum += matrix_(i, k) * x[k];
+      for (Eigen::Index k = reach_[i].first; k < reach_[i].last; ++k) sum += matrix_(i, k) * x[k];
       speed_[i] = sum;
     }
   }
@@ -218,7 +222,7 @@ private:
     double largest = 0, sums = 0;
     for (Eigen::Index i = 0; i < n_; ++i) {
       double sum = 0;
-      for (Eigen::Index k = reach(i).first; k < reach(i).last; ++k) sum += std::abs(matrix_(i, k) * x[k]);
+      for (Eigen::Index k = reach_[i].first; k < reach_[i].last; ++k) sum += std::abs(matrix_(i, k) * x[k]);
       sums = std::max(sums, sum);
       largest = std::max(largest, std::abs(offset_[i]));
     }
@@ -229,21 +233,21 @@ private:
    * enough. */
   bool keep_if_better(const Vector &x)
   {
-    Vector inside = x;
-    admit(inside);
-    const double now = residual(inside);
+    inside_ = x;
+    admit(inside_);
+    const double now = residual(inside_);
     if (now <= result_.residual) {
       result_.residual = now;
-      best_ = inside;
+      best_ = inside_;
     }
-    result_.converged = now <= accepted_residual(inside);
+    result_.converged = now <= accepted_residual(inside_);
     return result_.converged;
   }
 
   /* Computes the rows of the derivative of the map at x, whose speeds and map must have been evaluated. */
   void linearise(const Vector &x)
   {
-    derivative_.setZero(n_, n_);
+    derivative_.setZero();
     for (const ManifoldRows &m : problem_.manifolds) {
       for (uint32_t k = 0; k < m.normals; ++k) {
         const Eigen::Index i = m.first + k;
@@ -303,35 +307,29 @@ private:
 
   /* Rows that are at rest (the derivative is x = 0 alone) are solved directly; the others are scaled alike and solved
    * by elimination. */
-  bool newton_change(Vector &change) const
+  bool newton_change()
   {
-    change = -map_;
-    std::vector<Eigen::Index> coupled;
-    for (Eigen::Index i = 0; i < n_; ++i)
-      if (!alone(i)) coupled.push_back(i);
-    const auto size = static_cast<Eigen::Index>(coupled.size());
+    change_ = -map_;
+    Eigen::Index size = 0;
+    for (Eigen::Index i = 0; i < n_; ++i) {
+      is_coupled_[i] = !alone(i);
+      if (is_coupled_[i]) coupled_[size++] = i;
+    }
     if (size == 0) return true;
-    std::vector<bool> is_coupled(static_cast<size_t>(n_), false);
-    for (Eigen::Index i : coupled) is_coupled[static_cast<size_t>(i)] = true;
-    Matrix system(size, size);
-    Vector right(size);
+    Matrix system(system_.data(), size, size);
+    Vector right(right_.data(), size);
     for (Eigen::Index r = 0; r < size; ++r) {
-      const Eigen::Index i = coupled[static_cast<size_t>(r)];
+      const Eigen::Index i = coupled_[r];
       const double scale = 1 / std::sqrt(step_[i]);
       double sum = -map_[i];
       for (Eigen::Index k = 0; k < n_; ++k)
-        if (!is_coupled[static_cast<size_t>(k)]) sum -= derivative_(i, k) * change[k];
+        if (!is_coupled_[k]) sum -= derivative_(i, k) * change_[k];
       right[r] = scale * sum;
-      for (Eigen::Index c = 0; c < size; ++c) {
-        const Eigen::Index k = coupled[static_cast<size_t>(c)];
-        system(r, c) = scale * derivative_(i, k) * std::sqrt(step_[k]);
-      }
+      for (Eigen::Index c = 0; c < size; ++c)
+        system(r, c) = scale * derivative_(i, coupled_[c]) * std::sqrt(step_[coupled_[c]]);
     }
-    if (!eliminate(system, right)) return false;
-    for (Eigen::Index r = 0; r < size; ++r) {
-      const Eigen::Index i = coupled[static_cast<size_t>(r)];
-      change[i] = right[r] * std::sqrt(step_[i]);
-    }
+    if (!eliminate(system, right, ends_)) return false;
+    for (Eigen::Index r = 0; r < size; ++r) change_[coupled_[r]] = right[r] * std::sqrt(step_[coupled_[r]]);
     return true;
   }
 
@@ -339,28 +337,27 @@ private:
    * converge. */
   void newton(Vector &x, bool careful)
   {
-    Vector change;
     for (int k = 0; k < newton_limit; ++k) {
       if (keep_if_better(x)) return;
       evaluate_map(x);
       const double before = merit();
       linearise(x);
       ++result_.newton_steps;
-      if (!newton_change(change) || !change.allFinite()) return;
-      if (!careful) x += change;
-      else if (!search(x, change, before)) return;
+      if (!newton_change() || !change_.allFinite()) return;
+      if (!careful) x += change_;
+      else if (!search(x, before)) return;
     }
     keep_if_better(x);
   }
 
   /* Halves the change until it decreases the map. */
-  bool search(Vector &x, const Vector &change, double before)
+  bool search(Vector &x, double before)
   {
     for (double share = 1; share > 1.0 / 100; share *= 0.5) {
-      const Vector there = x + share * change;
-      evaluate_map(there);
+      there_ = x + share * change_;
+      evaluate_map(there_);
       if (!(merit() < (1 - 1e-4 * share) * before)) continue;
-      x = there;
+      x = there_;
       return true;
     }
     return false;
@@ -371,7 +368,7 @@ private:
     const double change = to - x[i];
     if (change == 0) return;
     x[i] = to;
-    for (Eigen::Index k = reach(i).first; k < reach(i).last; ++k) speed_[k] += matrix_(i, k) * change;
+    for (Eigen::Index k = reach_[i].first; k < reach_[i].last; ++k) speed_[k] += matrix_(i, k) * change;
   }
 
   void solve_manifold(const ManifoldRows &m, Vector &x)
@@ -408,15 +405,30 @@ private:
   }
 
   IslandProblem &problem_;
+  Arena &arena_;
   Eigen::Index n_;
-  Matrix matrix_, derivative_;
-  Vector guess_, own_, offset_, step_, speed_, map_, best_;
-  std::vector<Reach> reach_;
+  Reach *reach_;
+  Eigen::Index *ends_, *coupled_; /* of elimination; the rows that take part in it */
+  bool *is_coupled_;
+  Matrix matrix_ = square(), derivative_ = square(), system_ = square();
+  Vector guess_ = vector(), own_ = vector(), offset_ = vector(), step_ = vector(), speed_ = vector(), map_ = vector(),
+         x_ = vector(), best_ = vector(), inside_ = vector(), there_ = vector(), change_ = vector(), right_ = vector();
   IslandResult result_;
 };
 
 } // namespace
 
-IslandResult solve_island(IslandProblem &problem) { return IslandSolver(problem).run(); }
+IslandResult solve_island(IslandProblem &problem, Arena &arena)
+{
+  arena.clear();
+  return IslandSolver(problem, arena).run();
+}
+
+/* The sum of the members of IslandSolver that lie in the arena, which throws where one was forgotten here. */
+size_t island_solver_bytes(size_t rows)
+{
+  return 3 * Arena::bytes_of<double>(rows * rows) + 12 * Arena::bytes_of<double>(rows) +
+         2 * Arena::bytes_of<Eigen::Index>(rows) + Arena::bytes_of<Reach>(rows) + Arena::bytes_of<bool>(rows);
+}
 
 } // namespace tandem

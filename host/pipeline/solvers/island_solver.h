@@ -13,8 +13,11 @@
  */
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
+
+#include "host/base/arena.h"
 
 namespace tandem {
 
@@ -42,7 +45,10 @@ struct IslandResult {
 
 /* Each row has a compliance of a millionth of its own response, applied to the difference of its impulse from the
  * guess. The result has converged if the residual is at most 1e-9 of the largest speed of the problem. If neither
- * method converges, the impulses are the best ones found, including the guess. They are finite if the problem is. */
-IslandResult solve_island(IslandProblem &problem);
+ * method converges, the impulses are the best ones found, including the guess. They are finite if the problem is.
+ *
+ * The solver allocates nothing. It works in the arena, in which island_solver_bytes(problem.rows) must be reserved. */
+IslandResult solve_island(IslandProblem &problem, Arena &arena);
+size_t island_solver_bytes(size_t rows);
 
 } // namespace tandem

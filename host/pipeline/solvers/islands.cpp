@@ -4,15 +4,21 @@
 #include "host/pipeline/solvers/islands.h"
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <numeric>
+#include <span>
+#include <vector>
 
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/partitioner.h>
+#include <tbb/task_arena.h>
 
+#include "host/base/arena.h"
 #include "host/pipeline/solvers/island_solver.h"
 #include "host/runtime/interface/floating_point.h"
 #include "host/runtime/memory.h"
@@ -30,57 +36,67 @@ namespace {
 
 using namespace in_double;
 
-std::vector<float4> read_rows(Memory &memory, Buffer buffer, size_t count, size_t first = 0)
+using Counts = std::array<uint32_t, COUNT_TOTAL>;
+
+/* Reads planes that are `stride` apart on the device and `count` apart here. The list gets room for whole planes, so
+ * that only a launch with larger buffers allocates. */
+void read_planes(Memory &memory, Buffer buffer, size_t planes, size_t count, size_t stride, std::vector<float4> &rows)
 {
-  const std::vector<double> reals = memory.read_reals(buffer, 4 * count, 4 * first);
-  std::vector<float4> rows(count);
-  std::memcpy(static_cast<void *>(rows.data()), reals.data(), count * sizeof(float4));
-  return rows;
+  rows.reserve(planes * stride);
+  rows.resize(planes * count);
+  for (size_t plane = 0; plane < planes; ++plane)
+    memory.read_reals(buffer, reinterpret_cast<double *>(rows.data() + plane * count), 4 * count, 4 * plane * stride);
 }
 
-void write_rows(Memory &memory, Buffer buffer, const std::vector<float4> &rows, size_t first = 0)
+void read_reals(Memory &memory, Buffer buffer, size_t count, size_t stride, std::vector<double> &reals)
 {
-  memory.write_reals(buffer, reinterpret_cast<const double *>(rows.data()), 4 * rows.size(), 4 * first);
+  reals.reserve(stride);
+  reals.resize(count);
+  memory.read_reals(buffer, reals.data(), count);
 }
 
-/* Reads planes that are `stride` apart on the device and `count` apart here. */
-std::vector<float4> read_planes(Memory &memory, Buffer buffer, size_t planes, size_t count, size_t stride)
+void read_indices(Memory &memory, Buffer buffer, size_t count, size_t stride, std::vector<uint32_t> &indices)
 {
-  std::vector<float4> all;
-  for (size_t plane = 0; plane < planes; ++plane) {
-    const std::vector<float4> one = read_rows(memory, buffer, count, plane * stride);
-    all.insert(all.end(), one.begin(), one.end());
-  }
-  return all;
+  indices.reserve(stride);
+  indices.resize(count);
+  memory.download(buffer, indices.data(), count * sizeof(uint32_t));
+}
+
+void write_rows(Memory &memory, Buffer buffer, const float4 *rows, size_t count, size_t first = 0)
+{
+  memory.write_reals(buffer, reinterpret_cast<const double *>(rows), 4 * count, 4 * first);
 }
 
 Parameters read_parameters(Memory &memory)
 {
   Parameters parameters{};
-  const std::vector<double> reals =
-      memory.read_reals(Buffer::parameters, offsetof(Parameters, features) / sizeof(double));
-  std::memcpy(&parameters, reals.data(), reals.size() * sizeof(double));
-  const size_t reals_bytes = reals.size() * sizeof(float);
-  parameters.features = memory.read<Features>(Buffer::parameters, 1, reals_bytes / sizeof(Features)).at(0);
+  std::array<double, offsetof(Parameters, features) / sizeof(double)> reals{};
+  memory.read_reals(Buffer::parameters, reals.data(), reals.size());
+  std::memcpy(&parameters, reals.data(), sizeof reals);
+  memory.download(Buffer::parameters, &parameters.features, sizeof(Features), reals.size() * sizeof(float));
   return parameters;
 }
 
 /* Everything that the stage reads, in double; its results are written back from here. */
 struct Rows {
-  Rows(Memory &memory, const std::vector<uint32_t> &counts)
-      : count(counts[COUNT_CONSTRAINTS]), stride(counts[CAPACITY_PAIRS]), parameters(read_parameters(memory)),
-        a(memory.read<uint32_t>(Buffer::constraint_a, count)), b(memory.read<uint32_t>(Buffer::constraint_b, count)),
-        normal(read_rows(memory, Buffer::constraint_normal, count)),
-        points(read_planes(memory, Buffer::constraint_points, 8, count, stride)),
-        center(read_planes(memory, Buffer::constraint_center, 2, count, stride)),
-        normal_impulse(read_rows(memory, Buffer::constraint_normal_impulse, count)),
-        friction_impulse(read_rows(memory, Buffer::constraint_friction_impulse, count)),
-        velocity(read_rows(memory, Buffer::solver_velocity, 2 * size_t{counts[COUNT_BODIES]})),
-        inertia(read_rows(memory, Buffer::solver_inertia, velocity.size())),
-        delta(read_rows(memory, Buffer::solver_delta_pose, velocity.size()))
+  void read(Memory &memory, const Counts &counts)
   {
-    slop = memory.read_reals(Buffer::constraint_slop, count);
-    if (bounces()) restitution = read_planes(memory, Buffer::constraint_restitution, 2, count, stride);
+    count = counts[COUNT_CONSTRAINTS];
+    stride = counts[CAPACITY_PAIRS];
+    parameters = read_parameters(memory);
+    read_indices(memory, Buffer::constraint_a, count, stride, a);
+    read_indices(memory, Buffer::constraint_b, count, stride, b);
+    read_planes(memory, Buffer::constraint_normal, 1, count, stride, normal);
+    read_planes(memory, Buffer::constraint_points, 8, count, stride, points);
+    read_planes(memory, Buffer::constraint_center, 2, count, stride, center);
+    read_planes(memory, Buffer::constraint_normal_impulse, 1, count, stride, normal_impulse);
+    read_planes(memory, Buffer::constraint_friction_impulse, 1, count, stride, friction_impulse);
+    const size_t body_rows = 2 * size_t{counts[COUNT_BODIES]};
+    read_planes(memory, Buffer::solver_velocity, 1, body_rows, body_rows, velocity);
+    read_planes(memory, Buffer::solver_inertia, 1, body_rows, body_rows, inertia);
+    read_planes(memory, Buffer::solver_delta_pose, 1, body_rows, body_rows, delta);
+    read_reals(memory, Buffer::constraint_slop, count, stride, slop);
+    if (bounces()) read_planes(memory, Buffer::constraint_restitution, 2, count, stride, restitution);
   }
 
   bool bounces() const { return HAS_FEATURE(&parameters, RESTITUTION); }
@@ -91,15 +107,14 @@ struct Rows {
 
   void write(Memory &memory) const
   {
-    write_rows(memory, Buffer::constraint_normal_impulse, normal_impulse);
-    write_rows(memory, Buffer::constraint_friction_impulse, friction_impulse);
-    write_rows(memory, Buffer::solver_velocity, velocity);
-    if (bounces())
-      write_rows(memory, Buffer::constraint_restitution, {restitution.begin() + count, restitution.end()}, stride);
+    write_rows(memory, Buffer::constraint_normal_impulse, normal_impulse.data(), count);
+    write_rows(memory, Buffer::constraint_friction_impulse, friction_impulse.data(), count);
+    write_rows(memory, Buffer::solver_velocity, velocity.data(), velocity.size());
+    if (bounces()) write_rows(memory, Buffer::constraint_restitution, restitution.data() + count, count, stride);
   }
 
-  uint32_t count, stride;
-  Parameters parameters;
+  uint32_t count = 0, stride = 0;
+  Parameters parameters{};
   std::vector<uint32_t> a, b;
   std::vector<float4> normal, points, center, normal_impulse, friction_impulse, velocity, inertia, delta, restitution;
   std::vector<double> slop; /* or the flag for a deep contact: slop_or_deep */
@@ -120,56 +135,99 @@ uint32_t root_of(std::vector<uint32_t> &parent, uint32_t body)
   return body;
 }
 
-/* The constraints of each island, in the order of the constraints; islands are ordered by their first constraint. */
-std::vector<std::vector<uint32_t>> find_islands(const Rows &rows)
+enum class Outcome : uint8_t { left, solved, stalled };
+
+/* Constraints by island. Each list of all constraints has the range [starts[k], starts[k + 1]) for island k. */
+struct Islands {
+  void reserve(size_t most_constraints)
+  {
+    starts.reserve(most_constraints + 1);
+    for (std::vector<uint32_t> *list : {&next, &members, &ordered}) list->reserve(most_constraints);
+    seen.reserve(most_constraints);
+    outcomes.reserve(most_constraints);
+  }
+
+  size_t count() const { return starts.size() - 1; }
+  size_t size(size_t k) const { return starts[k + 1] - starts[k]; }
+  std::span<const uint32_t> constraints(size_t k) const { return {members.data() + starts[k], size(k)}; }
+  std::span<uint32_t> order(size_t k) { return {ordered.data() + starts[k], size(k)}; }
+  std::span<uint8_t> marks(size_t k) { return {seen.data() + starts[k], size(k)}; }
+
+  std::vector<uint32_t> parent, island_of; /* of each body */
+  std::vector<uint32_t> starts, next;
+  std::vector<uint32_t> members, ordered; /* in the order of the constraints; in that of elimination */
+  std::vector<uint8_t> seen;
+  std::vector<Outcome> outcomes; /* of each island */
+};
+
+void unite_bodies(const Rows &rows, std::vector<uint32_t> &parent)
 {
-  std::vector<uint32_t> parent(rows.bodies());
+  parent.resize(rows.bodies());
   std::iota(parent.begin(), parent.end(), 0u);
   for (uint32_t i = 0; i < rows.count; ++i)
     if (rows.moves(rows.a[i]) && rows.moves(rows.b[i])) {
       const uint32_t one = root_of(parent, rows.a[i]), other = root_of(parent, rows.b[i]);
       parent[std::max(one, other)] = std::min(one, other);
     }
-  std::vector<uint32_t> island_of(rows.bodies(), INDEX_NONE);
-  std::vector<std::vector<uint32_t>> islands;
-  for (uint32_t i = 0; i < rows.count; ++i) {
-    const uint32_t root = root_of(parent, rows.moves(rows.a[i]) ? rows.a[i] : rows.b[i]);
-    if (island_of[root] == INDEX_NONE) {
-      island_of[root] = static_cast<uint32_t>(islands.size());
-      islands.emplace_back();
-    }
-    islands[island_of[root]].push_back(i);
-  }
-  return islands;
 }
 
-/* The constraints by their distance from `start` over shared moving bodies, breadth first. */
-std::vector<uint32_t> walk_from(const Rows &rows, const std::vector<uint32_t> &constraints, size_t start)
+/* The constraints of each island keep the order of the constraints; islands are ordered by their first constraint. */
+void find_islands(const Rows &rows, Islands &islands)
+{
+  islands.reserve(rows.stride);
+  unite_bodies(rows, islands.parent);
+  const auto root = [&](uint32_t i) { return root_of(islands.parent, rows.moves(rows.a[i]) ? rows.a[i] : rows.b[i]); };
+  islands.island_of.assign(rows.bodies(), INDEX_NONE);
+  islands.starts.assign(1, 0);
+  for (uint32_t i = 0; i < rows.count; ++i) {
+    uint32_t &island = islands.island_of[root(i)];
+    if (island == INDEX_NONE) {
+      island = static_cast<uint32_t>(islands.count());
+      islands.starts.push_back(0);
+    }
+    ++islands.starts[island + 1];
+  }
+  std::partial_sum(islands.starts.begin(), islands.starts.end(), islands.starts.begin());
+  islands.next.assign(islands.starts.begin(), islands.starts.end() - 1);
+  islands.members.resize(rows.count);
+  for (uint32_t i = 0; i < rows.count; ++i) islands.members[islands.next[islands.island_of[root(i)]]++] = i;
+  islands.ordered.resize(rows.count);
+  islands.seen.resize(rows.count);
+  islands.outcomes.assign(islands.count(), Outcome::left);
+}
+
+/* Writes the constraints by their distance from `start` over shared moving bodies, breadth first, and returns how many
+ * it has reached. */
+size_t walk_from(const Rows &rows, std::span<const uint32_t> constraints, size_t start, std::span<uint32_t> order,
+                 std::span<uint8_t> seen)
 {
   const auto touch = [&](uint32_t one, uint32_t other) {
     for (uint32_t body : {rows.a[one], rows.b[one]})
       if (rows.moves(body) && (body == rows.a[other] || body == rows.b[other])) return true;
     return false;
   };
-  std::vector<uint32_t> order = {constraints[start]};
-  std::vector<bool> seen(constraints.size(), false);
-  seen[start] = true;
-  for (size_t at = 0; at < order.size(); ++at)
+  std::fill(seen.begin(), seen.end(), uint8_t{0});
+  seen[start] = 1;
+  order[0] = constraints[start];
+  size_t found = 1;
+  for (size_t at = 0; at < found; ++at)
     for (size_t k = 0; k < constraints.size(); ++k) {
       if (seen[k] || !touch(order[at], constraints[k])) continue;
-      seen[k] = true;
-      order.push_back(constraints[k]);
+      seen[k] = 1;
+      order[found++] = constraints[k];
     }
-  return order;
+  return found;
 }
 
 /* Orders neighbours near each other, so that the matrix has a small bandwidth (Cuthill and McKee, 1969): a search from
  * the last constraint of a first search. */
-std::vector<uint32_t> in_narrow_order(const Rows &rows, const std::vector<uint32_t> &constraints)
+std::span<const uint32_t> in_narrow_order(const Rows &rows, Islands &islands, size_t k)
 {
-  const uint32_t end = walk_from(rows, constraints, 0).back();
-  return walk_from(rows, constraints,
-                   static_cast<size_t>(std::find(constraints.begin(), constraints.end(), end) - constraints.begin()));
+  const std::span<const uint32_t> constraints = islands.constraints(k);
+  const std::span<uint32_t> order = islands.order(k);
+  const uint32_t last = order[walk_from(rows, constraints, 0, order, islands.marks(k)) - 1];
+  const auto end = static_cast<size_t>(std::find(constraints.begin(), constraints.end(), last) - constraints.begin());
+  return order.first(walk_from(rows, constraints, end, order, islands.marks(k)));
 }
 
 /* --- rows of a constraint -------------------------------------------------------------------------- */
@@ -181,11 +239,41 @@ struct Row {
   double *impulse; /* where it is stored */
 };
 
+/* A manifold has at most four points, and at most three rows beside theirs. */
+constexpr size_t most_constraint_rows = 7, most_island_rows = 4 * most_island_points;
+
+/* What the solution of one island takes. A task keeps it for the islands of this launch and of later ones. */
+struct IslandMemory {
+  void reserve(size_t most_constraints)
+  {
+    const size_t rows = std::min(most_constraint_rows * most_constraints, most_island_rows);
+    list.reserve(rows);
+    problem.matrix.reserve(rows * rows);
+    problem.offset.reserve(rows);
+    problem.impulse.reserve(rows);
+    problem.manifolds.reserve(std::min<size_t>(most_constraints, most_island_points));
+    arena.reserve(island_solver_bytes(rows));
+  }
+  void clear()
+  {
+    list.clear();
+    problem.offset.clear();
+    problem.impulse.clear();
+    problem.manifolds.clear();
+  }
+
+  std::vector<Row> list;
+  IslandProblem problem;
+  Arena arena;
+};
+
 class Island {
 public:
-  Island(Rows &rows, const std::vector<uint32_t> &constraints, uint32_t pass)
-      : rows_(rows), constraints_(constraints), pass_(pass)
+  Island(Rows &rows, std::span<const uint32_t> constraints, uint32_t pass, IslandMemory &memory)
+      : rows_(rows), constraints_(constraints), pass_(pass), list_(memory.list), problem_(memory.problem),
+        arena_(memory.arena)
   {
+    memory.clear();
     for (uint32_t i : constraints_) add_constraint(i);
     problem_.rows = static_cast<uint32_t>(list_.size());
     assemble();
@@ -203,7 +291,7 @@ public:
   bool solve()
   {
     if (problem_.rows == 0) return true;
-    const bool converged = solve_island(problem_).converged;
+    const bool converged = solve_island(problem_, arena_).converged;
     apply();
     if (pass_ != PASS_BOUNCING && rows_.bounces()) note_highest();
     return converged;
@@ -222,10 +310,11 @@ private:
   void push(uint32_t body, const vec3 &direction, const vec3 &turn, double impulse);
 
   Rows &rows_;
-  const std::vector<uint32_t> &constraints_;
+  std::span<const uint32_t> constraints_;
   uint32_t pass_;
-  std::vector<Row> list_;
-  IslandProblem problem_;
+  std::vector<Row> &list_;
+  IslandProblem &problem_;
+  Arena &arena_;
 };
 
 double *component_of(float4 &r, uint32_t k) { return k == 0 ? &r.x : k == 1 ? &r.y : k == 2 ? &r.z : &r.w; }
@@ -374,55 +463,91 @@ void Island::note_highest()
     }
 }
 
-enum class Outcome : uint8_t { left, solved, stalled };
-
-Outcome solve_one(Rows &rows, const std::vector<uint32_t> &constraints, uint32_t pass)
+Outcome solve_one(Rows &rows, Islands &islands, size_t k, uint32_t pass, IslandMemory &memory)
 {
   const minicl::ExactFloatingPoint environment;
   uint32_t points = 0;
-  for (uint32_t i : constraints) points += points_of(rows, i);
+  for (uint32_t i : islands.constraints(k)) points += points_of(rows, i);
   if (points > most_island_points) return Outcome::left;
-  const std::vector<uint32_t> order = in_narrow_order(rows, constraints);
-  Island island(rows, order, pass);
+  Island island(rows, in_narrow_order(rows, islands, k), pass, memory);
   if (!island.is_finite()) return Outcome::left;
   return island.solve() ? Outcome::solved : Outcome::stalled;
 }
 
-void write_counts(Memory &memory, const std::vector<Outcome> &outcomes,
-                  const std::vector<std::vector<uint32_t>> &islands, uint32_t stalled_before)
+void write_counts(Memory &memory, const Islands &islands, uint32_t stalled_before)
 {
   uint32_t values[3] = {0, 0, stalled_before};
-  for (size_t k = 0; k < islands.size(); ++k) {
-    if (outcomes[k] == Outcome::left) values[1] += static_cast<uint32_t>(islands[k].size());
+  for (size_t k = 0; k < islands.count(); ++k) {
+    if (islands.outcomes[k] == Outcome::left) values[1] += static_cast<uint32_t>(islands.size(k));
     else ++values[0];
-    if (outcomes[k] == Outcome::stalled) ++values[2];
+    if (islands.outcomes[k] == Outcome::stalled) ++values[2];
   }
   static_assert(COUNT_DIRECT_LEFT == COUNT_DIRECT_ISLANDS + 1 && COUNT_DIRECT_STALLED == COUNT_DIRECT_ISLANDS + 2);
   memory.upload(Buffer::counts, values, sizeof values, COUNT_DIRECT_ISLANDS * sizeof(uint32_t));
 }
 
-} // namespace
+/* The memory that it keeps is for as many constraints as the buffers have room for. So a launch allocates only where
+ * these have grown, or where there are more bodies or more threads than before. */
+class SolveIslands : public CpuKernel {
+public:
+  void run(const Launch &launch, Memory &memory) override
+  {
+    Counts counts;
+    memory.download(Buffer::counts, counts.data(), sizeof counts);
+    if (counts[COUNT_CONSTRAINTS] == 0) return;
+    rows_.read(memory, counts);
+    find_islands(rows_, islands_);
+    make_room_for_tasks();
+    solve(launch.values.at(0));
+    if (std::any_of(islands_.outcomes.begin(), islands_.outcomes.end(),
+                    [](Outcome outcome) { return outcome != Outcome::left; }))
+      rows_.write(memory);
+    write_counts(memory, islands_, counts[COUNT_DIRECT_STALLED]);
+  }
 
-void solve_islands(const Launch &launch, Memory &memory)
+private:
+  void make_room_for_tasks();
+  void solve(uint32_t pass);
+
+  Rows rows_;
+  Islands islands_;
+  std::vector<IslandMemory> memories_; /* one for each task */
+};
+
+/* Tasks allocate nothing, so what fails for want of memory fails here. */
+void SolveIslands::make_room_for_tasks()
 {
-  const auto counts = memory.read<uint32_t>(Buffer::counts, COUNT_TOTAL);
-  if (counts[COUNT_CONSTRAINTS] == 0) return;
-  Rows rows(memory, counts);
-  const std::vector<std::vector<uint32_t>> islands = find_islands(rows);
-  std::vector<Outcome> outcomes(islands.size(), Outcome::left);
-  const auto solve = [&](size_t k) { outcomes[k] = solve_one(rows, islands[k], launch.values.at(0)); };
-  minicl::settle_threads();
+  const size_t threads =
+      std::min(minicl::settle_threads(), static_cast<size_t>(tbb::this_task_arena::max_concurrency()));
+  memories_.resize(std::max(memories_.size(), std::min<size_t>(threads, rows_.stride)));
+  for (IslandMemory &memory : memories_) memory.reserve(rows_.stride);
+}
+
+/* Each task takes the next island until none is left, so that there are no more memories than threads. */
+void SolveIslands::solve(uint32_t pass)
+{
+  std::atomic<size_t> next = 0;
+  const auto solve_some = [&](IslandMemory &memory) {
+    for (size_t k; (k = next.fetch_add(1, std::memory_order_relaxed)) < islands_.count();)
+      islands_.outcomes[k] = solve_one(rows_, islands_, k, pass, memory);
+  };
+  const size_t tasks = std::min(memories_.size(), islands_.count());
+  if (tasks == 1) return solve_some(memories_[0]);
   minicl::LaunchOrder order;
   order.launch_begins();
-  tbb::parallel_for(size_t{0}, islands.size(), [&](size_t k) TANDEM_UNWATCHED {
-    order.items_begin();
-    solve(k);
-    order.items_end();
-  });
+  tbb::parallel_for(
+      size_t{0}, tasks,
+      [&](size_t task) TANDEM_UNWATCHED {
+        order.items_begin();
+        solve_some(memories_[task]);
+        order.items_end();
+      },
+      tbb::simple_partitioner{});
   order.launch_ends();
-  if (std::any_of(outcomes.begin(), outcomes.end(), [](Outcome outcome) { return outcome != Outcome::left; }))
-    rows.write(memory);
-  write_counts(memory, outcomes, islands, counts[COUNT_DIRECT_STALLED]);
 }
+
+} // namespace
+
+std::unique_ptr<CpuKernel> make_solve_islands() { return std::make_unique<SolveIslands>(); }
 
 } // namespace tandem

@@ -12,7 +12,9 @@
  */
 #pragma once
 
-#include "host/runtime/interface/backend.h"
+#include <memory>
+
+#include "host/pipeline/cpu_kernels.h"
 
 namespace tandem {
 
@@ -20,6 +22,6 @@ constexpr uint32_t most_island_points = 96;
 
 /* A kernel of execution HOST; the value of its launch is the pass (shared/solve/pass.h). Islands are solved in
  * parallel, each by one task, so the result does not depend on the number of threads. */
-void solve_islands(const Launch &launch, Memory &memory);
+std::unique_ptr<CpuKernel> make_solve_islands();
 
 } // namespace tandem

@@ -38,6 +38,13 @@ IslandProblem random_problem(Random &random, int manifolds, int degrees, double 
   return problem;
 }
 
+IslandResult solve(IslandProblem &problem)
+{
+  Arena arena;
+  arena.reserve(island_solver_bytes(problem.rows));
+  return solve_island(problem, arena);
+}
+
 /* The solver lets a row yield by a millionth of what its own impulse does (island_solver.h; the guess here is 0). */
 Eigen::VectorXd speeds_of(const IslandProblem &problem)
 {
@@ -82,7 +89,7 @@ TEST_CASE("island solver: without friction every random problem converges", "[di
   Random random(1);
   for (int k = 0; k < 60; ++k) {
     IslandProblem problem = random_problem(random, 1 + k % 5, 6 + k % 7, 0.0);
-    const IslandResult result = solve_island(problem);
+    const IslandResult result = solve(problem);
     CAPTURE(k, result.residual, result.newton_steps, result.iterations);
     CHECK(result.converged);
     require_laws(problem, 1e-6);
@@ -95,7 +102,7 @@ TEST_CASE("island solver: with friction the laws hold wherever it converges, and
   int converged = 0;
   for (int k = 0; k < 60; ++k) {
     IslandProblem problem = random_problem(random, 1 + k % 4, 12, 0.3);
-    const IslandResult result = solve_island(problem);
+    const IslandResult result = solve(problem);
     CAPTURE(k, result.residual, result.newton_steps, result.iterations);
     for (double x : problem.impulse) REQUIRE(std::isfinite(x));
     if (!result.converged) continue;
@@ -115,9 +122,9 @@ TEST_CASE("island solver: what has no solution gives back no worse than the gues
     for (uint32_t i = 0; i < problem.rows; ++i)
       problem.offset[i] = random.uniform(-100, 100); /* outside the range of W */
     IslandProblem once = problem;
-    const IslandResult result = solve_island(problem);
+    const IslandResult result = solve(problem);
     for (double x : problem.impulse) CHECK(std::isfinite(x));
-    const IslandResult again = solve_island(once);
+    const IslandResult again = solve(once);
     CHECK(once.impulse == problem.impulse);
     CHECK(again.residual == result.residual);
     double guess = 0; /* of no impulses: only normals that approach miss their law */
