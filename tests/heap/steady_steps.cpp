@@ -55,7 +55,7 @@ void check_allocates_nothing(const Scene &scene, const Settings &settings, const
   CHECK(counts == Counts{});
 }
 
-/* Stacks of boxes that slide, and balls that bounce for ever, so that every step has other contacts, and no island is at
+/* Stacks of boxes that slide, and balls that bounce for ever, so that every step has other contacts and no island is at
  * rest. */
 Scene small_islands()
 {
