@@ -124,7 +124,8 @@ TEST_CASE("heap: a step that solves islands directly allocates nothing, on any b
   for (const std::string &backend : all_backends()) check_allocates_nothing(small_islands(), settings, backend);
 }
 
-/* Eigen takes memory from malloc, past operator new. So do tasks of TBB now and then, so there is but one thread. */
+/* Eigen takes memory from malloc, past operator new. So does TBB where its own pool (libtbbmalloc) is missing, hence
+ * the one thread, with which there are no tasks. */
 TEST_CASE("heap: a step that solves islands directly does not call malloc")
 {
   tbb::task_arena one(1);

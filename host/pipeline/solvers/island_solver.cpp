@@ -27,7 +27,6 @@ struct Reach {
   Eigen::Index first, last;
 };
 
-
 /* Four points of a face can carry one load in many ways, and each float is rounded a little differently, so that none
  * of these ways fits exactly. A compliance, relative to each row's own response, selects the solution nearest to the
  * guess; at rest, where the guess is the solution, it has no effect. With a much smaller compliance, rounding

@@ -239,7 +239,8 @@ struct Row {
   double *impulse; /* where it is stored */
 };
 
-/* A manifold has at most four points, and at most three rows beside theirs. */
+/* A manifold has at most four points, and three rows beside theirs. An island has most rows where each point is a
+ * manifold of its own. */
 constexpr size_t most_constraint_rows = 7, most_island_rows = 4 * most_island_points;
 
 /* What the solution of one island takes. A task keeps it for the islands of this launch and of later ones. */

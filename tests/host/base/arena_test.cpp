@@ -1,8 +1,7 @@
 /* Pieces of an arena are apart, aligned, and never more than was reserved. */
-#include "host/base/arena.h"
-
 #include <cstdint>
 
+#include "host/base/arena.h"
 #include "tests/catch.h"
 
 using namespace tandem;
