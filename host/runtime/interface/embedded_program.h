@@ -15,7 +15,7 @@ struct EmbeddedEntry {
 
 struct EmbeddedProgram {
   const char *name;                   /* "solve" for cl/solve.cl */
-  const char *headers;                /* OpenCL C before the entries */
+  std::vector<const char *> headers;  /* OpenCL C before the entries: pieces, which programs share */
   std::vector<EmbeddedEntry> entries; /* any subset of them makes a complete program */
 };
 

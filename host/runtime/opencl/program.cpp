@@ -102,9 +102,16 @@ EmbeddedProgram with_entries_of(const EmbeddedProgram &program, const std::vecto
   return part;
 }
 
+std::string headers_of(const EmbeddedProgram &program)
+{
+  std::string headers;
+  for (const char *piece : program.headers) headers += piece;
+  return headers;
+}
+
 std::string source_of(const EmbeddedProgram &program)
 {
-  std::string source = program.headers;
+  std::string source = headers_of(program);
   for (const EmbeddedEntry &entry : program.entries) source += entry.source;
   return source;
 }
@@ -116,7 +123,8 @@ Features features_read(const EmbeddedProgram &program)
 #include "shared/features.def"
 #undef FEATURE
   };
-  const std::set<std::string_view> names = names_tested(program.headers);
+  const std::string headers = headers_of(program);
+  const std::set<std::string_view> names = names_tested(headers);
   Features features = 0;
   for (const auto &[name, bit] : rows)
     if (names.contains(name)) features |= bit;

@@ -17,7 +17,8 @@ const EmbeddedProgram &embedded_program(const std::string &name);
 /* The same program with only the entries of these kernels. */
 EmbeddedProgram with_entries_of(const EmbeddedProgram &program, const std::vector<Kernel> &kernels);
 
-/* The whole text of a program: headers and entries. */
+/* The text before the entries, and the whole text of a program. */
+std::string headers_of(const EmbeddedProgram &program);
 std::string source_of(const EmbeddedProgram &program);
 
 /* Builds with the context's options and these, from the cache where that pays. BuildError contains the compiler's

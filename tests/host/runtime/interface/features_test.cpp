@@ -29,7 +29,7 @@ bool has_ninth(const Parameters *parameters) { return HAS_FEATURE(parameters, NI
 /* shared/features.h as every program has it, then a kernel that writes what the tests say. */
 EmbeddedProgram program_with_many_features()
 {
-  static const std::string source = std::string(opencl::embedded_program("parallel").headers) + R"(
+  static const std::string source = opencl::headers_of(opencl::embedded_program("parallel")) + R"(
 enum { FEATURE_INDEX_NINTH = 8, FEATURE_INDEX_FORTY_FIRST = 40, FEATURE_INDEX_SIXTY_FOURTH = 63 };
 __kernel void many_features(__global uint *found)
 {
@@ -38,7 +38,7 @@ __kernel void many_features(__global uint *found)
   found[2] = MAY_OCCUR(SIXTY_FOURTH) ? 1u : 0u;
 }
 )";
-  return {"many_features", source.c_str(), {}};
+  return {"many_features", {source.c_str()}, {}};
 }
 
 std::vector<cl_uint> found_on_device(const opencl::DeviceContext &context, const std::string &mask)
@@ -92,15 +92,16 @@ TEST_CASE("features: a kernel of an OpenCL device sees each of 64 bits for itsel
   const opencl::DeviceContext context(test_device());
   CHECK(found_on_device(context, "0x10000000000ul") == std::vector<cl_uint>{0, 1, 0});
   CHECK(found_on_device(context, "0x8000000000000100ul") == std::vector<cl_uint>{1, 0, 1});
-  CHECK(found_on_device(context, "0x7ffffeffffffffff" "ul") == std::vector<cl_uint>{1, 0, 0});
+  CHECK(found_on_device(context, "0x7ffffeffffffffff"
+                                 "ul") == std::vector<cl_uint>{1, 0, 0});
 }
 
 TEST_CASE("features: a program is built anew for those alone that its text tests")
 {
   const EmbeddedProgram program{"some",
-                                "#define MAY_OCCUR(name) 1\n"
-                                "uint f() { return HAS_FEATURE(scene->parameters, TREES) && MAY_OCCUR(HULL); }\n"
-                                "/* FILTER, CONVEX_HALF_SPACE */ uint g() { return HAS_FEATURE(p, CONVEX); }\n",
+                                {"#define MAY_OCCUR(name) 1\n",
+                                 "uint f() { return HAS_FEATURE(scene->parameters, TREES) && MAY_OCCUR(HULL); }\n",
+                                 "/* FILTER, CONVEX_HALF_SPACE */ uint g() { return HAS_FEATURE(p, CONVEX); }\n"},
                                 {}};
   CHECK(opencl::features_read(program) == (FEATURE_TREES | FEATURE_HULL | FEATURE_CONVEX));
   CHECK((opencl::features_read(opencl::embedded_program("parallel")) & (FEATURE_HULL | FEATURE_ROUND)) == 0);

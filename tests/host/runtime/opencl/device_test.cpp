@@ -24,11 +24,11 @@ std::string refusal_of(const std::string &text)
 /* The verdict of a self-test in which `from` reads `to` on the device: a stand-in for a device that errs so. */
 std::string with_planted(const opencl::DeviceContext &context, const std::string &from, const std::string &to)
 {
-  std::string source = opencl::embedded_program("self_test").headers;
+  std::string source = opencl::headers_of(opencl::embedded_program("self_test"));
   const size_t at = source.find(from);
   REQUIRE(at != std::string::npos);
   source.replace(at, from.size(), to);
-  return opencl::self_test(context, 1024, EmbeddedProgram{"self_test", source.c_str(), {}});
+  return opencl::self_test(context, 1024, EmbeddedProgram{"self_test", {source.c_str()}, {}});
 }
 
 } // namespace

@@ -111,7 +111,7 @@ TEST_CASE("other options, another program: another place in the cache")
 {
   const opencl::Candidate &device = test_device();
   const opencl::DeviceContext context(device);
-  const EmbeddedProgram changed{"parallel", "__kernel void fill() {}", {}};
+  const EmbeddedProgram changed{"parallel", {"__kernel void fill() {}"}, {}};
   const std::string plain = opencl::cache_key(context, opencl::embedded_program("parallel"), "");
   REQUIRE(plain != opencl::cache_key(context, opencl::embedded_program("parallel"), "-D FEATURES=1"));
   REQUIRE(plain != opencl::cache_key(context, changed, ""));
@@ -123,7 +123,7 @@ TEST_CASE("a program that does not compile is shown with file and line")
   const PrivateCache cache;
   const opencl::DeviceContext context(device);
   const EmbeddedProgram broken{
-      "broken", "#line 1 \"cl/broken.cl\"\n\n#line 41 \"shared/math.h\"\n\nfloat f(float x) { return y; }\n", {}};
+      "broken", {"#line 1 \"cl/broken.cl\"\n\n#line 41 \"shared/math.h\"\n\nfloat f(float x) { return y; }\n"}, {}};
   try {
     opencl::build_program(context, broken);
     FAIL("it compiled");
