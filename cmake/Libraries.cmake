@@ -71,7 +71,9 @@ file(GLOB MINICL_SOURCES CONFIGURE_DEPENDS minicl/*.cpp minicl/finding/*.cpp)
 if(TANDEM_PORTABLE_KERNELS_ONLY)
   list(FILTER MINICL_SOURCES EXCLUDE REGEX "(lanes8|lanes16|scalar_avx2|backward|reference|reference_storage)[.]cpp$")
 endif()
-set_source_files_properties(${MINICL_SOURCES} PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
+set(TANDEM_KERNEL_OPTIONS "" CACHE STRING "Options of the compiler for the kernels of the CPU alone")
+set_source_files_properties(${MINICL_SOURCES} PROPERTIES SKIP_PRECOMPILE_HEADERS ON
+  COMPILE_OPTIONS "${TANDEM_KERNEL_OPTIONS}")
 set(io_sources ${HOST_SOURCES})
 list(FILTER io_sources INCLUDE REGEX "/host/(io|catalog)/")
 set(verify_sources ${HOST_SOURCES})
@@ -100,5 +102,17 @@ endif()
 if(TANDEM_PORTABLE_KERNELS_ONLY)
   target_compile_definitions(tandem_objects PRIVATE TANDEM_PORTABLE_KERNELS_ONLY)
 endif()
+
+set(TANDEM_OBJECTS_FROM "" CACHE PATH
+  "Build folder of this source, from which trees of sanitizers and of other compilers take what they need not compile")
+
+# The objects of this tree before all others, which a build folder named by TANDEM_OBJECTS_FROM has, too.
+function(link_own_libraries_first target)
+  set(files)
+  foreach(library IN LISTS libraries)
+    string(PREPEND files "$<TARGET_FILE:${library}> ")
+  endforeach()
+  target_link_options(${target} PRIVATE "SHELL:-Wl,--whole-archive ${files}-Wl,--no-whole-archive")
+endfunction()
 include(cmake/JoinSources.cmake)
 embed_kernels(tandem_objects)

@@ -4,8 +4,6 @@
 # addresses are watched. Other tools and most tests only call it: with TANDEM_OBJECTS_FROM they are the objects of a
 # tree without sanitizers, of the same source and compiler, and take no time. The library is linked before them, so that
 # of inline functions in both, its are taken.
-set(TANDEM_OBJECTS_FROM "" CACHE PATH
-  "Build folder without sanitizers, whose tools and tests are linked, not compiled again")
 
 # scalar.cpp is watched for all that the sanitizers know. The other widths and orders are the same source: only what
 # depends on them, accesses to buffers, is watched there, by calls: a seventh of the compile time (lanes8.cpp: 54 s for
@@ -44,9 +42,3 @@ set(borrowed_tools)
 if(TANDEM_OBJECTS_FROM)
   set(borrowed_tools ${TANDEM_OBJECTS_FROM}/libtandem_tools.a)
 endif()
-
-# The library's objects before all others.
-function(link_watched_library_first target)
-  set(watched "$<TARGET_FILE:tandem_verify> $<TARGET_FILE:tandem_io> $<TARGET_FILE:tandem>")
-  target_link_options(${target} PRIVATE "SHELL:-Wl,--whole-archive ${watched} -Wl,--no-whole-archive")
-endfunction()
