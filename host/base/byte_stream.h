@@ -9,6 +9,7 @@
  */
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
@@ -47,53 +48,98 @@ template <class T> struct IsOptional<std::optional<T>> : std::true_type {};
 
 class ByteWriter {
 public:
-  void reserve(size_t bytes) { bytes_.reserve(bytes); }
-  size_t size() const { return bytes_.size(); }
-  std::vector<std::byte> take() { return std::move(bytes_); }
-  std::byte *data() { return bytes_.data(); }
+  ByteWriter() = default;
+  /* Writes over these bytes: fresh memory costs several times what writing does. */
+  explicit ByteWriter(std::vector<std::byte> bytes) : bytes_(std::move(bytes)) {}
+
+  void reserve(size_t bytes)
+  {
+    if (bytes > bytes_.size()) bytes_.resize(bytes);
+  }
+  size_t size() const { return size_; }
+  std::vector<std::byte> take()
+  {
+    bytes_.resize(std::exchange(size_, 0));
+    return std::exchange(bytes_, {});
+  }
 
   /* Makes room for so many bytes, to be filled by the caller before the next call. */
   std::byte *extend(size_t bytes)
   {
-    bytes_.resize(bytes_.size() + bytes);
-    return bytes_.data() + (bytes_.size() - bytes);
+    if (bytes > bytes_.size() - size_) bytes_.resize(std::max(size_ + bytes, size_ + size_ / 2));
+    return bytes_.data() + std::exchange(size_, size_ + bytes);
   }
-  void put_bytes(const void *from, size_t bytes)
-  {
-    const auto *first = static_cast<const std::byte *>(from);
-    bytes_.insert(bytes_.end(), first, first + bytes);
-  }
+  void put_bytes(const void *from, size_t bytes) { copy(from, bytes, extend(bytes)); }
 
   template <class T> void put(const T &value)
   {
-    if constexpr (std::is_same_v<T, bool>) put(static_cast<uint8_t>(value ? 1 : 0));
-    else if constexpr (std::is_enum_v<T>) put(static_cast<std::underlying_type_t<T>>(value));
-    else if constexpr (IsPlain<T>::value) put_bytes(&value, sizeof value);
-    else if constexpr (std::is_same_v<T, std::string>) put_list_of_bytes(value.data(), value.size(), 1);
-    else if constexpr (IsArray<T>::value) {
-      for (const auto &element : value) put(element);
-    } else if constexpr (IsVector<T>::value || IsSpan<T>::value) put_list(std::span(value));
-    else if constexpr (IsOptional<T>::value) {
-      put(value.has_value());
-      if (value) put(*value);
-    } else std::apply([this](const auto &...fields) { (this->put(fields), ...); }, fields_of(value));
+    if constexpr (IsVector<T>::value || IsSpan<T>::value) put_list(std::span(value));
+    else write(value, extend(bytes_of(value)));
   }
   template <class Element> void put_list(std::span<Element> values)
   {
     using T = std::remove_const_t<Element>;
-    if constexpr (IsPlain<T>::value) return put_list_of_bytes(values.data(), values.size(), sizeof(T));
     put(uint64_t{values.size()});
-    for (const T &value : values) put(value);
+    if constexpr (IsPlain<T>::value) put_bytes(values.data(), values.size_bytes());
+    else
+      for (const T &value : values) put(value);
   }
 
 private:
-  void put_list_of_bytes(const void *from, size_t count, size_t element)
+  /* A record is measured and then written through a pointer of its own, which the compiler keeps in a register. */
+  template <class T> static size_t bytes_of(const T &value)
   {
-    put(uint64_t{count});
-    if (count > 0) put_bytes(from, count * element);
+    if constexpr (std::is_same_v<T, bool>) return 1;
+    else if constexpr (std::is_enum_v<T> || IsPlain<T>::value) return sizeof value;
+    else if constexpr (std::is_same_v<T, std::string>) return sizeof(uint64_t) + value.size();
+    else if constexpr (IsArray<T>::value) return bytes_of_all(value);
+    else if constexpr (IsVector<T>::value || IsSpan<T>::value) return sizeof(uint64_t) + bytes_of_all(value);
+    else if constexpr (IsOptional<T>::value) return 1 + (value ? bytes_of(*value) : 0);
+    else
+      return std::apply([](const auto &...fields) { return (size_t{0} + ... + bytes_of(fields)); }, fields_of(value));
+  }
+  template <class List> static size_t bytes_of_all(const List &list)
+  {
+    if constexpr (IsPlain<std::remove_cvref_t<decltype(*list.data())>>::value)
+      return list.size() * sizeof(*list.data());
+    size_t bytes = 0;
+    for (const auto &element : list) bytes += bytes_of(element);
+    return bytes;
   }
 
-  std::vector<std::byte> bytes_;
+  static std::byte *copy(const void *from, size_t bytes, std::byte *to)
+  {
+    if (bytes > 0) std::memcpy(to, from, bytes);
+    return to + bytes;
+  }
+  /* Returns where the next value goes. */
+  template <class T> static std::byte *write(const T &value, std::byte *to)
+  {
+    if constexpr (std::is_same_v<T, bool>) return write(static_cast<uint8_t>(value ? 1 : 0), to);
+    else if constexpr (std::is_enum_v<T> || IsPlain<T>::value) return copy(&value, sizeof value, to);
+    else if constexpr (std::is_same_v<T, std::string>)
+      return copy(value.data(), value.size(), write(uint64_t{value.size()}, to));
+    else if constexpr (IsArray<T>::value) return write_all(value, to);
+    else if constexpr (IsVector<T>::value || IsSpan<T>::value)
+      return write_all(value, write(uint64_t{value.size()}, to));
+    else if constexpr (IsOptional<T>::value) {
+      to = write(value.has_value(), to);
+      return value ? write(*value, to) : to;
+    } else {
+      std::apply([&to](const auto &...fields) { ((to = write(fields, to)), ...); }, fields_of(value));
+      return to;
+    }
+  }
+  template <class List> static std::byte *write_all(const List &list, std::byte *to)
+  {
+    if constexpr (IsPlain<std::remove_cvref_t<decltype(*list.data())>>::value)
+      return copy(list.data(), list.size() * sizeof(*list.data()), to);
+    for (const auto &element : list) to = write(element, to);
+    return to;
+  }
+
+  std::vector<std::byte> bytes_; /* what is past size_ is room */
+  size_t size_ = 0;
 };
 
 class ByteReader {

@@ -231,4 +231,13 @@ QueryTarget World::Implementation::query_target()
   return {memory, launcher, structure};
 }
 
+/* Before a kernel of a module runs, all buffers are allocated that a step needs, which empties those of queries. So
+ * that comes before the hits are found. */
+QueryTarget World::Implementation::target_for_kernels()
+{
+  settle();
+  buffers.make_ready(sizes());
+  return query_target();
+}
+
 } // namespace tandem

@@ -80,6 +80,7 @@ struct World::Implementation {
   bool module_applies_forces() const;
   void guess_counts() noexcept;
   QueryTarget query_target();
+  QueryTarget target_for_kernels();
 
   /* --- a step happens whole or not at all (host/world/carried.h): step_attempts.cpp ---------------------------- */
   struct Attempt {
@@ -108,7 +109,7 @@ struct World::Implementation {
   void quarantine(uint32_t index, uint32_t stage);
 
   /* --- a world as bytes: snapshot.cpp ---------------------------------------------------------------------------- */
-  std::vector<std::byte> save();
+  std::vector<std::byte> save(std::vector<std::byte> memory = {}); /* memory: is used again */
   void put_history(ByteWriter &writer) const;
   void put_buffers(ByteWriter &writer);
   bool is_saved(Buffer buffer) const;

@@ -284,12 +284,17 @@ void launch_query_structure(StepLaunches &step, uint32_t structure)
   if (structure == QUERY_GRID) sort_into_cells(step);
 }
 
-std::vector<RayHit> cast_rays(const QueryTarget &target, std::span<const Ray> rays)
+void cast_rays_on_device(const QueryTarget &target, std::span<const Ray> rays)
 {
-  if (rays.empty()) return {};
+  if (rays.empty()) return;
   upload_rays(target, rays);
   reserve_hits(target.memory, rays.size());
   launch(target, Kernel::cast_rays, rays.size());
+}
+
+std::vector<RayHit> cast_rays(const QueryTarget &target, std::span<const Ray> rays)
+{
+  cast_rays_on_device(target, rays);
   return take_hits(target.memory, rays.size(), [&](size_t i) -> const Point & { return rays[i].origin; });
 }
 
@@ -335,13 +340,19 @@ std::vector<std::vector<BoxHit>> cast_boxes(const QueryTarget &target, std::span
   return found;
 }
 
-std::vector<ShapeCastHit> cast_shapes(const QueryTarget &target, const Shape &shape, std::span<const Pose> poses,
-                                      std::span<const Vec3> displacements, const QueryFilter &filter)
+void cast_shapes_on_device(const QueryTarget &target, const Shape &shape, std::span<const Pose> poses,
+                           std::span<const Vec3> displacements, const QueryFilter &filter)
 {
-  if (poses.empty()) return {};
+  if (poses.empty()) return;
   const uint32_t vertices = upload_shape_queries(target, shape, poses, displacements, filter);
   reserve_hits(target.memory, poses.size());
   launch(target, Kernel::cast_shapes, poses.size(), {static_cast<uint32_t>(shape.type), vertices});
+}
+
+std::vector<ShapeCastHit> cast_shapes(const QueryTarget &target, const Shape &shape, std::span<const Pose> poses,
+                                      std::span<const Vec3> displacements, const QueryFilter &filter)
+{
+  cast_shapes_on_device(target, shape, poses, displacements, filter);
   return take_hits(target.memory, poses.size(), [&](size_t i) -> const Point & { return poses[i].position; });
 }
 

@@ -42,6 +42,10 @@ struct QueryTarget {
 };
 
 std::vector<RayHit> cast_rays(const QueryTarget &target, std::span<const Ray> rays);
+/* Without reading the hits, which stay in their buffers. */
+void cast_rays_on_device(const QueryTarget &target, std::span<const Ray> rays);
+void cast_shapes_on_device(const QueryTarget &target, const Shape &shape, std::span<const Pose> poses,
+                           std::span<const Vec3> displacements, const QueryFilter &filter);
 std::vector<bool> cast_rays_any(const QueryTarget &target, std::span<const Ray> rays);
 std::vector<std::vector<RayHit>> cast_rays_all(const QueryTarget &target, std::span<const Ray> rays);
 std::vector<std::vector<BoxHit>> cast_boxes(const QueryTarget &target, std::span<const QueryBox> boxes);

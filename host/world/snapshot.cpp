@@ -388,10 +388,10 @@ void World::Implementation::put_buffers(ByteWriter &writer)
   }
 }
 
-std::vector<std::byte> World::Implementation::save()
+std::vector<std::byte> World::Implementation::save(std::vector<std::byte> memory)
 {
   settle();
-  ByteWriter writer;
+  ByteWriter writer(std::move(memory));
   begin_sealed(writer);
   std::vector<std::string> modules;
   for (const Extension &extension : settings.extensions) modules.emplace_back(extension.module->name());

@@ -10,6 +10,7 @@
 #include "host/base/out_of_memory.h"
 #include "host/runtime/interface/floating_point.h"
 #include "host/world/contact_events.h"
+#include "host/world/closest_points.h"
 #include "host/world/implementation.h"
 
 namespace tandem {
@@ -114,7 +115,14 @@ void World::set_observer(Observer observer) { implementation_->launcher.set_obse
 
 std::vector<std::byte> World::save()
 {
-  return answer_in_turn(*implementation_, "a snapshot", [&] { return implementation_->save(); });
+  std::vector<std::byte> bytes;
+  save(bytes);
+  return bytes;
+}
+
+void World::save(std::vector<std::byte> &bytes)
+{
+  bytes = answer_in_turn(*implementation_, "a snapshot", [&] { return implementation_->save(std::move(bytes)); });
 }
 
 void World::restore(std::span<const std::byte> snapshot)
@@ -489,6 +497,35 @@ std::vector<std::vector<uint32_t>> World::overlap_shapes(const Shape &shape, std
   const minicl::ExactFloatingPoint environment;
   return answer_in_turn(*implementation_, "queries",
                         [&] { return tandem::overlap_shapes(implementation_->query_target(), shape, poses, filter); });
+}
+
+std::vector<ClosestPoints> World::closest_points(std::span<const std::pair<BodyId, BodyId>> pairs)
+{
+  const minicl::ExactFloatingPoint environment;
+  return answer_in_turn(*implementation_, "closest points", [&] {
+    check_closest_points(implementation_->scene, implementation_->slots, pairs);
+    implementation_->settle();
+    return tandem::closest_points(implementation_->memory, implementation_->launcher, pairs,
+                                  implementation_->index_of_body);
+  });
+}
+
+void World::cast_rays_on_device(std::span<const Ray> rays)
+{
+  check_rays(rays);
+  const minicl::ExactFloatingPoint environment;
+  answer_in_turn(*implementation_, "queries",
+                 [&] { tandem::cast_rays_on_device(implementation_->target_for_kernels(), rays); });
+}
+
+void World::cast_shapes_on_device(const Shape &shape, std::span<const Pose> poses,
+                                  std::span<const Vec3> displacements, const QueryFilter &filter)
+{
+  check_shape_casts(shape, poses, displacements);
+  const minicl::ExactFloatingPoint environment;
+  answer_in_turn(*implementation_, "queries", [&] {
+    tandem::cast_shapes_on_device(implementation_->target_for_kernels(), shape, poses, displacements, filter);
+  });
 }
 
 Statistics World::statistics()

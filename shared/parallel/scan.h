@@ -21,7 +21,6 @@
 
 #define SCAN_TILE 4096u
 #define SCAN_CHUNKS CHUNKS(256u)
-#define SCAN_CHUNK (SCAN_TILE / SCAN_CHUNKS)
 
 /* The chunks of small tables: each of SMALL_CHUNKS items runs over one. */
 #define SMALL_CHUNKS CHUNKS(32u)
@@ -56,16 +55,20 @@ SHARED void scan_small(LOCAL uint *values, uint n, LOCAL uint *scratch)
   }
 }
 
-/* Loads a tile and stores, for each chunk, the sum of the chunks before it. The tile's total goes to
- * local_memory[SCAN_SMALL_AT + SMALL_CHUNKS]. Items past `count` are 0. */
+/* The items of a chunk, so that few items take little time. */
+SHARED uint scan_chunk(uint count) { return units_of(count, SCAN_CHUNKS); }
+
+/* Loads the first `count` items of a tile and stores, for each chunk, the sum of the chunks before it. The tile's total
+ * goes to local_memory[SCAN_SMALL_AT + SMALL_CHUNKS]. Items past `count` are 0. */
 SHARED void scan_load(GLOBAL const uint *values, uint first, uint count, LOCAL uint *local_memory)
 {
+  const uint chunk = scan_chunk(count);
   LOCAL uint *sums = local_memory + SCAN_SUMS_AT;
-  FOR_EACH_ITEM(i, SCAN_TILE) local_memory[SCAN_SPREAD(i)] = i < count ? values[first + i] : 0u;
+  FOR_EACH_ITEM(i, SCAN_CHUNKS * chunk) local_memory[SCAN_SPREAD(i)] = i < count ? values[first + i] : 0u;
   FOR_EACH_ITEM(s, SCAN_CHUNKS)
   {
     uint sum = 0u;
-    for (uint i = s * SCAN_CHUNK; i < (s + 1u) * SCAN_CHUNK; ++i)
+    for (uint i = s * chunk; i < (s + 1u) * chunk; ++i)
       sum = saturated_sum(sum, local_memory[SCAN_SPREAD(i)]);
     sums[s] = sum;
   }
@@ -75,11 +78,12 @@ SHARED void scan_load(GLOBAL const uint *values, uint first, uint count, LOCAL u
 /* Turns the loaded tile into exclusive sums that start at `start`, and writes them. */
 SHARED void scan_store(GLOBAL uint *result, uint first, uint count, uint start, LOCAL uint *local_memory)
 {
+  const uint chunk = scan_chunk(count);
   LOCAL const uint *sums = local_memory + SCAN_SUMS_AT;
   FOR_EACH_ITEM(s, SCAN_CHUNKS)
   {
     uint sum = saturated_sum(start, sums[s]);
-    for (uint i = s * SCAN_CHUNK; i < (s + 1u) * SCAN_CHUNK; ++i) {
+    for (uint i = s * chunk; i < (s + 1u) * chunk; ++i) {
       const uint value = local_memory[SCAN_SPREAD(i)];
       local_memory[SCAN_SPREAD(i)] = sum;
       sum = saturated_sum(sum, value);

@@ -100,18 +100,23 @@ FORCE_INLINE uint find_among_sleepers(const pair_search *search, const sleeper_l
   return at;
 }
 
-/* A row of cells along x is not one range of keys, so each cell is searched by itself. */
+/* Neighbours along x have keys that follow each other, unless the coordinate wraps around between them: only then is
+ * the next cell searched for. */
 FORCE_INLINE uint find_in_sleeper_cells(const pair_search *search, const sleeper_list *sleepers, const int low[3],
                                         const int high[3], const find_list *list, uint at)
 {
   for (int z = low[2]; z <= high[2]; ++z)
-    for (int y = low[1]; y <= high[1]; ++y)
+    for (int y = low[1]; y <= high[1]; ++y) {
+      uint end = 0u, after = INDEX_NONE; /* after: the key that follows the last cell's */
       for (int x = low[0]; x <= high[0]; ++x) {
-        uint key = key_of_cell(x, y, z), first = lower_bound_of(sleepers->table.key, sleepers->count, key);
-        uint end = first;
+        uint key = key_of_cell(x, y, z),
+             first = key == after ? end : lower_bound_of(sleepers->table.key, sleepers->count, key);
+        end = first;
         while (end < sleepers->count && sleepers->table.key[end] == key) ++end;
         at = find_among_sleepers(search, sleepers, first, end, list, at);
+        after = key + 1u;
       }
+    }
   return at;
 }
 
@@ -152,13 +157,13 @@ SHARED void near_sleepers_count_item(GLOBAL const Parameters *parameters, GLOBAL
   pair_start[i] = may_wake(body_flags, body_velocity, i) ? find_sleepers(&search, &sleepers, counts, &list, 0u) : 0u;
 }
 
-/* A sleeper has a higher index than any body that is awake, so it owns the pair. */
+/* A sleeper has a higher index than any body that is awake, so it owns the pair. Most bodies are near none. */
 SHARED void near_sleepers_write_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_flags,
-                                     GLOBAL const uint *body_filter, GLOBAL const float4 *bounds,
-                                     GLOBAL const float4 *body_velocity, read_sleepers table, GLOBAL const uint *counts,
-                                     GLOBAL const uint *pair_start, write_pairs pairs, uint i)
+                                     GLOBAL const uint *body_filter, GLOBAL const float4 *bounds, read_sleepers table,
+                                     GLOBAL const uint *counts, GLOBAL const uint *pair_start, write_pairs pairs,
+                                     uint i)
 {
-  if (!may_wake(body_flags, body_velocity, i)) return;
+  if (pair_start[i + 1u] == pair_start[i]) return;
   sleeper_list sleepers = {table, counts[COUNT_SLEEPERS]};
   find_list list = finds_as_bodies(pairs.a, counts[CAPACITY_PAIRS]);
   pair_search search = search_of_body(parameters, body_flags, body_filter, bounds, i);

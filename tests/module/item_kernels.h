@@ -12,6 +12,17 @@ SHARED void probe_turn_back_item(GLOBAL float4 *body_velocity, uint i)
   store_velocity(body_velocity, i, m);
 }
 
+/* Each body moves as the hit of its ray says: along the normal, at the speed of the fraction. */
+SHARED void probe_see_item(GLOBAL const float4 *query_hit, GLOBAL const uint *query_hit_body,
+                           GLOBAL float4 *body_velocity, uint i)
+{
+  spatial_velocity m = load_velocity(body_velocity, i);
+  vec4 hit = load_float4(query_hit, i);
+  if (query_hit_body[i] == INDEX_NONE) return;
+  m.linear = scale(xyz(hit), hit.w);
+  store_velocity(body_velocity, i, m);
+}
+
 /* How many steps each body has seen. */
 SHARED void probe_count_item(GLOBAL const uint *previous_probe_age, GLOBAL uint *probe_age, uint i)
 {

@@ -146,6 +146,40 @@ TEST_CASE("module: a kernel between steps changes what the next step starts from
   }
 }
 
+/* A ray for each body, in the order of the buffers; every other one looks away. */
+TEST_CASE("module: a kernel between steps reads the hits of rays and shape casts where they were left")
+{
+  const Scene scene = balls(9);
+  for (const std::string &backend : all_backends()) {
+    CAPTURE(backend);
+    World world(scene, with(pushing(0)), {backend, {}});
+    std::vector<Ray> rays(9);
+    std::vector<Pose> poses(9);
+    std::vector<Vec3> paths(9);
+    for (uint32_t i = 0; i < 9; ++i) {
+      const double sign = i % 2 ? 1 : -1;
+      rays[i].origin = poses[i].position = {2.0 * world.scene_body(i), 1 + 0.125 * i, 0};
+      rays[i].direction = paths[i] = {0, float(-4 * sign), 0};
+    }
+    for (const bool shapes : {false, true}) {
+      if (shapes) world.cast_shapes_on_device(sphere_shape(0.05f), poses, paths);
+      else world.cast_rays_on_device(rays);
+      world.run(probe::kernel::probe_see());
+      const std::vector<BodyState> bodies = world.bodies();
+      const std::vector<RayHit> hits = shapes ? world.cast_shapes(sphere_shape(0.05f), poses, paths)
+                                              : world.cast_rays(rays);
+      for (uint32_t i = 0; i < 9; ++i) {
+        CAPTURE(shapes, i);
+        REQUIRE((hits[i].body == no_body) == (i % 2 == 0));
+        const float radii = shapes ? 0.15f : 0.1f, expected = i % 2 ? (1 + 0.125f * float(i) - radii) / 4 : 0;
+        CHECK(bodies[world.scene_body(i)].linear_velocity[1] == hits[i].normal[1] * hits[i].fraction);
+        CHECK(bodies[world.scene_body(i)].linear_velocity[1] == Approx(expected).margin(1e-5));
+      }
+    }
+    world.step();
+  }
+}
+
 TEST_CASE("module: contacts that a kernel drops hold nothing")
 {
   Scene scene = balls(4);

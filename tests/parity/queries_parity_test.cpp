@@ -1,4 +1,4 @@
-/* Rays, shape casts and overlap tests give the same bits on every backend, with every structure of bodies. */
+/* Rays, casts, overlap tests and closest points give the same bits on every backend, with every structure of bodies. */
 #include <cstring>
 
 #include "host/base/random.h"
@@ -16,6 +16,7 @@ struct Answers {
   std::vector<std::vector<RayHit>> through;
   std::vector<std::vector<BoxHit>> boxes;
   std::vector<std::vector<uint32_t>> overlaps;
+  std::vector<ClosestPoints> closest;
   size_t found = 0, overlapped = 0;
 };
 
@@ -57,6 +58,10 @@ Answers ask(const std::string &scene, Broadphase broadphase, const std::string &
     const auto bodies = world.overlap_shapes(shape, poses);
     answers.overlaps.insert(answers.overlaps.end(), bodies.begin(), bodies.end());
   }
+  std::vector<std::pair<BodyId, BodyId>> pairs;
+  for (uint32_t body = 1; body < world.scene().bodies.size(); ++body)
+    pairs.emplace_back(world.id_of(body), world.id_of(body / 2));
+  answers.closest = world.closest_points(pairs);
   for (const RayHit &hit : answers.rays) answers.found += hit.body != no_body;
   for (const ShapeCastHit &hit : answers.casts) answers.found += hit.body != no_body;
   for (const auto &bodies : answers.overlaps) answers.overlapped += bodies.size();
@@ -70,6 +75,16 @@ bool same_bits(const std::vector<QueryHit> &a, const std::vector<QueryHit> &b)
                   std::memcmp(&p.point, &q.point, sizeof(Point)) == 0 &&
                   std::memcmp(&p.normal, &q.normal, sizeof(Vec3)) == 0;
          });
+}
+
+bool same_bits(const std::vector<ClosestPoints> &a, const std::vector<ClosestPoints> &b)
+{
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const ClosestPoints &p, const ClosestPoints &q) {
+    return std::memcmp(&p.distance, &q.distance, sizeof(float)) == 0 &&
+           std::memcmp(&p.on_first, &q.on_first, sizeof(Point)) == 0 &&
+           std::memcmp(&p.on_second, &q.on_second, sizeof(Point)) == 0 &&
+           std::memcmp(&p.normal, &q.normal, sizeof(Vec3)) == 0;
+  });
 }
 
 bool same_bits(const std::vector<std::vector<BoxHit>> &a, const std::vector<std::vector<BoxHit>> &b)
@@ -105,6 +120,7 @@ void require_equal_answers(const std::string &scene, const std::vector<std::stri
       CHECK(same_bits(found.through, expected.through));
       CHECK(same_bits(found.boxes, expected.boxes));
       CHECK(found.overlaps == expected.overlaps);
+      CHECK(same_bits(found.closest, expected.closest));
     }
 }
 

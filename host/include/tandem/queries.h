@@ -57,4 +57,11 @@ struct BoxHit {
   float fraction = 0; /* of the displacement, where the boxes first touch */
 };
 
+/* Of two bodies, in world coordinates. */
+struct ClosestPoints {
+  float distance = 0; /* m; 0 where the bodies overlap, and then the rest is 0 too */
+  Point on_first{0, 0, 0}, on_second{0, 0, 0};
+  Vec3 normal{0, 0, 0}; /* unit, from the first body to the second */
+};
+
 } // namespace tandem

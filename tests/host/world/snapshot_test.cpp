@@ -117,6 +117,22 @@ Bytes small_snapshot()
 
 } // namespace
 
+TEST_CASE("a snapshot into used bytes is the same, whatever they were")
+{
+  World world(small_snapshot(), {"serial", {}});
+  const Bytes expected = world.save();
+  for (const size_t size : {size_t{0}, size_t{1}, expected.size() / 2, expected.size() - 1, expected.size(),
+                            expected.size() + 1, 3 * expected.size()}) {
+    Bytes bytes(size, std::byte{0xa5});
+    world.save(bytes);
+    CAPTURE(size);
+    CHECK(bytes == expected);
+    const std::byte *const memory = bytes.data();
+    world.save(bytes);
+    CHECK(bytes.data() == memory);
+  }
+}
+
 TEST_CASE("a restored world goes on with the same bits on any backend", "[sanitizer]")
 {
   require_goes_on(yard(), watched(), "serial", {"tbb:threads=2,lanes=4"}, 57, 60);
