@@ -17,7 +17,6 @@ if(TARGET probe) # no test of it is for sanitizers, whose trees have no module
   list(APPEND heap_sources heap/long_run.cpp heap/malloc_calls.cpp heap/steady_steps.cpp)
 endif()
 tandem_catch2_tests(tandem_heap_tests ${heap_sources})
-set_target_properties(tandem_heap_tests PROPERTIES DISABLE_PRECOMPILE_HEADERS ON) # they are few
 if(TARGET probe)
   target_link_libraries(tandem_heap_tests PRIVATE probe)
 endif()
