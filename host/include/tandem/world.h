@@ -112,7 +112,7 @@ public:
    * have beyond floats. The events and contact figures of the last step are not part of it. Bytes are little-endian and
    * carry their format and a hash (docs/recordings.md). */
   std::vector<std::byte> save();
-  /* The same into bytes whose memory is used again: for a world that is saved often it takes a fraction of the time.
+  /* The same into bytes whose memory is used again, which takes less time for large worlds that are saved often.
    * If it throws, the bytes are lost. */
   void save(std::vector<std::byte> &bytes);
   /* Makes this world what it was, or another world was, when save() was called; settings and scene become those of the
@@ -317,14 +317,16 @@ public:
    * where the stage `queries` is placed. Exchanging the bodies of a pair exchanges the points, to the bit. The
    * distance is too large by no more than rounding, 2e-6 of the sizes of both bodies and the distance between them;
    * where round shapes make the search slow, it may be too small by 1e-5 of these. The points are as far apart as it
-   * says, to 1e-3 of the sizes. Throws InputError that names the entry with a stale handle, the same body twice, two
-   * half-spaces, or a body in quarantine. */
+   * says, to 1e-3 of the sizes. For a half-space the distance of the other body from its origin counts among the sizes.
+   * Bodies farther apart than 1e18 m have no meaningful answer. Throws InputError that names the entry with a stale
+   * handle, the same body twice, two half-spaces, or a body in quarantine. */
   std::vector<ClosestPoints> closest_points(std::span<const std::pair<BodyId, BodyId>> pairs);
 
   /* Cast as by the functions above, and leave the hits where the kernel runs, for kernels of modules: nothing is read
    * back. Row i of the buffers query_hit, query_point and query_hit_body (shared/buffers.def) is the hit of query i:
-   * normal and fraction; the point, from the start of the query; the index of the body in the scene, or no_body. They
-   * stay until the next query or step, or a call that creates bodies of a new kind (docs/your-own-kernel.md). */
+   * normal and fraction; the point, from the start of the query; the index of the body in the scene, or no_body. The
+   * next rays, boxes, shapes or overlap tests take their place, and calls that lay buffers out anew end them; a
+   * recording does not hold them (docs/your-own-kernel.md). */
   void cast_rays_on_device(std::span<const Ray> rays);
   void cast_shapes_on_device(const Shape &shape, std::span<const Pose> poses, std::span<const Vec3> displacements,
                              const QueryFilter &filter = {});
