@@ -1,5 +1,5 @@
 # changed_header_test.cmake - the OpenCL text of a module is written again when a header changes that a header of the
-# module includes, and only then.
+# module includes, and only then. What stands in a comment is no include and is left out.
 include(${CMAKE_CURRENT_LIST_DIR}/steps.cmake)
 set(project ${SCRATCH}/changed-header)
 set(written ${project}/build/wind_module/generated/wind_programs.cpp)
@@ -7,7 +7,8 @@ file(REMOVE_RECURSE ${project})
 file(COPY ${CMAKE_CURRENT_LIST_DIR}/wind/ DESTINATION ${project})
 file(READ ${project}/blow.h text)
 file(WRITE ${project}/blow.h "#include \"inner.h\"\n${text}")
-file(WRITE ${project}/inner.h "#include \"innermost.h\"\n")
+set(comment "/* Other headers write\n#include \"inner.h\"\n * after their own. */\n")
+file(WRITE ${project}/inner.h "${comment}#include \"innermost.h\"\n")
 file(APPEND ${project}/CMakeLists.txt "add_custom_target(text DEPENDS ${written})\n")
 
 # The text must hold `#define INNERMOST value` after a build; `when`: the time at which it was written.
@@ -16,6 +17,9 @@ function(build_text value when)
   file(READ ${written} text)
   if(NOT text MATCHES "#define INNERMOST ${value}\n")
     message(FATAL_ERROR "${written} does not hold INNERMOST ${value}: a changed header was not seen")
+  endif()
+  if(text MATCHES "after their own")
+    message(FATAL_ERROR "${written} holds a part of a comment")
   endif()
   file(TIMESTAMP ${written} time "%s.%f")
   set(${when} ${time} PARENT_SCOPE)

@@ -21,6 +21,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <iterator>
 #include <map>
 #include <set>
 #include <sstream>
@@ -49,7 +50,8 @@ std::string stage_wanted(const std::string &line)
 
 struct Program {
   std::string name, stage;           /* stage: empty if no entries are requested */
-  std::vector<std::string> headers;  /* pieces of text: a #line directive, and lines up to the next include */
+  std::string readable;              /* the headers with their comments */
+  std::vector<std::string> headers;  /* pieces without: a #line directive, and lines up to the next include */
   std::set<std::string> seen, files; /* files: the paths of the headers in `seen` */
 };
 
@@ -62,31 +64,6 @@ std::string path_of(const Folders &folders, const std::string &name)
     if (std::filesystem::exists(folder + "/" + name)) return folder + "/" + name;
   throw std::runtime_error("no file " + name + " in " + folders.front() +
                            (folders.size() > 1 ? " nor in " + folders.back() : ""));
-}
-
-void expand(const Folders &folders, const std::string &name, Program &program)
-{
-  const bool is_list = name.ends_with(".def"); /* expanded at every include */
-  if (!is_list && !program.seen.insert(name).second) return;
-  std::ifstream in(path_of(folders, name));
-  if (!in) throw std::runtime_error("cannot read " + path_of(folders, name));
-  program.files.insert(path_of(folders, name));
-  const auto begin_piece = [&](int number) {
-    program.headers.push_back("#line " + std::to_string(number) + " \"" + name + "\"\n");
-  };
-  begin_piece(1);
-  std::string line;
-  for (int number = 1; std::getline(in, line); ++number) {
-    const std::string included = included_name(line), stage = stage_wanted(line);
-    if (!stage.empty()) {
-      program.stage = stage;
-    } else if (included.empty()) {
-      program.headers.back() += line + '\n';
-    } else {
-      expand(folders, included, program);
-      begin_piece(number + 1);
-    }
-  }
 }
 
 /* A quarter of the text is comments, which no device needs. Their line ends are kept, so that messages name the right
@@ -111,6 +88,41 @@ std::string without_comments(const std::string &text)
       ++at; /* the closing slash */
     }
   return kept;
+}
+
+std::string text_of_file(const std::string &path)
+{
+  std::ifstream in(path);
+  if (!in) throw std::runtime_error("cannot read " + path);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/* What stands in a comment is neither an include nor a wish for entries. */
+void expand(const Folders &folders, const std::string &name, Program &program)
+{
+  const bool is_list = name.ends_with(".def"); /* expanded at every include */
+  if (!is_list && !program.seen.insert(name).second) return;
+  const std::string path = path_of(folders, name), text = text_of_file(path);
+  program.files.insert(path);
+  const auto begin_piece = [&](int number) {
+    program.headers.push_back("#line " + std::to_string(number) + " \"" + name + "\"\n");
+    program.readable += program.headers.back();
+  };
+  begin_piece(1);
+  std::istringstream commented(text), bare(without_comments(text));
+  std::string line, code;
+  for (int number = 1; std::getline(commented, line) && std::getline(bare, code); ++number) {
+    const std::string included = included_name(code), stage = stage_wanted(code);
+    if (!stage.empty()) {
+      program.stage = stage;
+    } else if (included.empty()) {
+      program.headers.back() += code + '\n';
+      program.readable += line + '\n';
+    } else {
+      expand(folders, included, program);
+      begin_piece(number + 1);
+    }
+  }
 }
 
 /* String literals have a length limit on some compilers, so the text is written in pieces. */
@@ -145,11 +157,9 @@ void write_program(const Program &program, const std::vector<embed::KernelRow> &
                    const std::string &folder, Pieces &pieces, std::ostream &out)
 {
   std::ofstream readable(folder + "/" + program.name + ".cl");
+  readable << program.readable;
   out << "{\"" << program.name << "\",\n{";
-  for (const std::string &piece : program.headers) {
-    readable << piece;
-    out << pieces.name_of(without_comments(piece)) << ",\n";
-  }
+  for (const std::string &piece : program.headers) out << pieces.name_of(piece) << ",\n";
   out << "},{\n";
   size_t entries = 0;
   for (const embed::KernelRow &row : rows)
