@@ -24,25 +24,33 @@ typedef struct {
   GLOBAL const float4 *query_start, *query_displacement;
 } query_scene;
 
+/* The bodies and their shapes, which is all that walks through parts need. */
+SHARED void set_bodies_of_scene(query_scene *scene, GLOBAL const Parameters *parameters, read_shapes shapes,
+                                read_surfaces surfaces, read_trees trees, read_bodies bodies)
+{
+  scene->parameters = parameters;
+  scene->flags = shapes.flags;
+  scene->convexes = shapes.convex;
+  scene->body_trees = trees.of_body;
+  scene->shapes = shapes.size;
+  scene->poses = shapes.pose;
+  scene->positions = bodies.position;
+  scene->orientations = bodies.orientation;
+  scene->tables = tables_of(surfaces, SUPPORT_BRUTE_FORCE);
+  scene->trees = tables_of_trees(trees);
+}
+
 SHARED query_scene query_scene_of(GLOBAL const Parameters *parameters, read_search_structures search_structures,
                                   read_shapes shapes, read_surfaces surfaces, read_trees trees, read_bodies bodies,
                                   read_queries queries, uint structure)
 {
-  query_scene scene = {parameters,
-                       shapes.flags,
-                       shapes.convex,
-                       trees.of_body,
-                       shapes.size,
-                       shapes.pose,
-                       bodies.position,
-                       bodies.orientation,
-                       tables_of(surfaces, SUPPORT_BRUTE_FORCE),
-                       tables_of_trees(trees),
-                       structure_of(search_structures, structure),
-                       queries.body,
-                       queries.filter,
-                       queries.start,
-                       queries.displacement};
+  query_scene scene;
+  set_bodies_of_scene(&scene, parameters, shapes, surfaces, trees, bodies);
+  scene.bodies = structure_of(search_structures, structure);
+  scene.query_body = queries.body;
+  scene.query_filter = queries.filter;
+  scene.query_start = queries.start;
+  scene.query_displacement = queries.displacement;
   return scene;
 }
 

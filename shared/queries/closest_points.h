@@ -114,16 +114,7 @@ SHARED void find_closest_points_item(GLOBAL const Parameters *parameters, read_s
                                      GLOBAL float4 *closest_normal, GLOBAL float4 *closest_point, uint i)
 {
   query_scene scene;
-  scene.parameters = parameters;
-  scene.flags = shapes.flags;
-  scene.convexes = shapes.convex;
-  scene.body_trees = trees.of_body;
-  scene.shapes = shapes.size;
-  scene.poses = shapes.pose;
-  scene.positions = bodies.position;
-  scene.orientations = bodies.orientation;
-  scene.tables = tables_of(surfaces, SUPPORT_BRUTE_FORCE);
-  scene.trees = tables_of_trees(trees);
+  set_bodies_of_scene(&scene, parameters, shapes, surfaces, trees, bodies);
   uint a = query_pair[2u * i], b = query_pair[2u * i + 1u];
   vec3 offset = seen_from(bodies.position, a, load_position(bodies.position, b));
   mask turned = shape_of(shapes.flags[b]) == (uint)SHAPE_HALF_SPACE;
