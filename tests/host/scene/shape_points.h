@@ -36,6 +36,14 @@ inline Shape any_shape(Random &random)
   }
 }
 
+/* A square of so many points along each side, up to 0.3 m high and low. */
+inline Shape any_height_field(Random &random, uint32_t columns, float spacing)
+{
+  std::vector<float> heights;
+  for (uint32_t i = 0; i < columns * columns; ++i) heights.push_back(float(random.uniform(-0.3, 0.3)));
+  return height_field_shape(heights, columns, spacing, spacing, "heights");
+}
+
 /* A body with a shape at any pose in it: a third of the shapes are at its centre, a third of these without a
  * rotation. */
 inline Body &add_any(Scene &scene, Random &random, const Point &at)

@@ -29,13 +29,6 @@ std::vector<IdPair> all_pairs(const World &world, const Scene &scene)
   return pairs;
 }
 
-Shape bumpy_field(Random &random)
-{
-  std::vector<float> heights;
-  for (int i = 0; i < 7 * 7; ++i) heights.push_back(float(random.uniform(-0.3, 0.3)));
-  return height_field_shape(heights, 7, 0.5f, 0.5f, "bumps");
-}
-
 Shape mallet()
 {
   std::vector<Child> children(3);
@@ -55,7 +48,8 @@ Scene bodies_of_all_kinds_apart(Random &random, int n)
   add_ground(scene);
   for (int i = 0; i < n; ++i) {
     const Point at{random.uniform(-5, 5), random.uniform(1, 8), random.uniform(-5, 5)};
-    if (i % 6 == 0) add_body(scene, BodyType::fixed, bumpy_field(random), at).orientation = random.orientation();
+    if (i % 6 == 0)
+      add_body(scene, BodyType::fixed, any_height_field(random, 7, 0.5f), at).orientation = random.orientation();
     else if (i % 6 == 1) add_body(scene, BodyType::fixed, mallet(), at).orientation = random.orientation();
     else add_any(scene, random, at);
   }
@@ -83,15 +77,30 @@ TEST_CASE("closest points follow closed forms")
   const Near cases[] = {
       {sphere_shape(1), sphere_shape(0.5f), {3, 4, 0}, none, 3.5, {0.6, 0.8, 0}, {2.7, 3.6, 0}},
       {sphere_shape(0.5f), box_shape(1, 2, 3), {4, 1, 2}, none, 2.5, {0.5, 0, 0}, {3, 0, 0}},
-      {sphere_shape(0.5f), box_shape(1, 1, 1), {2, 2, 5}, none, std::sqrt(18.0) - 0.5,
-       0.5 * Vector(1, 1, 4) / std::sqrt(18.0), {1, 1, 4}},
-      {capsule_shape(0.25f, 1), sphere_shape(0.5f), {2, 3, 0}, none, std::sqrt(8.0) - 0.75,
-       Vector(0, 1, 0) + 0.25 * Vector(half, half, 0), Vector(2, 3, 0) - 0.5 * Vector(half, half, 0)},
+      {sphere_shape(0.5f),
+       box_shape(1, 1, 1),
+       {2, 2, 5},
+       none,
+       std::sqrt(18.0) - 0.5,
+       0.5 * Vector(1, 1, 4) / std::sqrt(18.0),
+       {1, 1, 4}},
+      {capsule_shape(0.25f, 1),
+       sphere_shape(0.5f),
+       {2, 3, 0},
+       none,
+       std::sqrt(8.0) - 0.75,
+       Vector(0, 1, 0) + 0.25 * Vector(half, half, 0),
+       Vector(2, 3, 0) - 0.5 * Vector(half, half, 0)},
       {box_shape(1, 1, 1), box_shape(2, 1, 1), {0, 0, 0}, none, 0, {0, 0, 0}, {0, 0, 0}},
       {half_space_shape(), sphere_shape(0.5f), {2, 3, -1}, none, 2.5, {2, 0, -1}, {2, 2.5, -1}},
       {half_space_shape(), box_shape(1, 1, 0.5f), {0, 3, 0}, turn_about({1, 2, 1}, 0), 2, {9, 0, 9}, {9, 2, 9}},
       {sphere_shape(1), sphere_shape(0.5f), {1.4, 0, 0}, none, 0, {0, 0, 0}, {0, 0, 0}},
-      {cylinder_shape(1, 0.5f), sphere_shape(0.25f), {4, 4.5, 0}, none, 4.75, {1, 0.5, 0},
+      {cylinder_shape(1, 0.5f),
+       sphere_shape(0.25f),
+       {4, 4.5, 0},
+       none,
+       4.75,
+       {1, 0.5, 0},
        Vector(4, 4.5, 0) - 0.25 * Vector(0.6, 0.8, 0)},
   };
   for (const Near &near : cases)

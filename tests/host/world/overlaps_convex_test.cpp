@@ -10,13 +10,6 @@ using namespace tandem::convex_distance;
 
 namespace {
 
-Shape uneven_field(Random &random)
-{
-  std::vector<float> heights;
-  for (int i = 0; i < 6 * 6; ++i) heights.push_back(float(random.uniform(-0.3, 0.3)));
-  return height_field_shape(heights, 6, 0.5f, 0.5f, "uneven");
-}
-
 Shape hammer()
 {
   std::vector<Child> children(3);
@@ -34,7 +27,7 @@ Scene one_body(Random &random, uint32_t kind)
   Scene scene = empty_scene({0, 0, 0});
   if (kind == 0) add_body(scene, BodyType::fixed, hammer(), {0, 0, 0}).orientation = random.orientation();
   else if (kind == 1)
-    add_body(scene, BodyType::fixed, uneven_field(random), {0, 0, 0}).orientation = random.orientation();
+    add_body(scene, BodyType::fixed, any_height_field(random, 6, 0.5f), {0, 0, 0}).orientation = random.orientation();
   else add_any(scene, random, {0, 0, 0});
   return scene;
 }
@@ -52,8 +45,7 @@ TEST_CASE("overlap tests of any two shapes tell what misses by a hair from what 
     const Shape shape = any_shape(random);
     const Vector away = 9 * direction(random);
     const Quat turn = random.orientation();
-    const std::vector<Solid> query = solids_of(shape, {point_of(away), turn}),
-                             body = solids_of(scene, scene.bodies[0]);
+    const std::vector<Solid> query = solids_of(shape, {point_of(away), turn}), body = solids_of(scene, scene.bodies[0]);
     const DistanceBounds distance = distance_between(query, body);
     const double size = query[0].reach() + body[0].reach(), hair = 2e-6 * size;
     if (distance.lower < 0.1 || distance.upper - distance.lower > 0.1 * hair) continue;

@@ -100,27 +100,20 @@ double distance_to_shape(const Vector &p, const Shape &shape)
   case ShapeType::half_space: return p.y();
   case ShapeType::mesh:
     for (const auto &[i, j, k] : shape.mesh->triangles)
-      least = std::min(least,
-                       distance_to_triangle(p, vector_of(shape.mesh->vertices[i]), vector_of(shape.mesh->vertices[j]),
-                                            vector_of(shape.mesh->vertices[k])));
+      least =
+          std::min(least, distance_to_triangle(p, vector_of(shape.mesh->vertices[i]),
+                                               vector_of(shape.mesh->vertices[j]), vector_of(shape.mesh->vertices[k])));
     return least;
   case ShapeType::compound:
     for (const Child &child : shape.compound->children)
-      least = std::min(least,
-                       distance_to_shape(axes_of(child.orientation).transpose() * (p - vector_of(child.position)),
-                                         child.shape));
+      least =
+          std::min(least, distance_to_shape(axes_of(child.orientation).transpose() * (p - vector_of(child.position)),
+                                            child.shape));
     return least;
   case ShapeType::hull: break;
   }
   FAIL("no distance is known here");
   return 0;
-}
-
-Shape rough_sheet(Random &random)
-{
-  std::vector<float> heights;
-  for (int i = 0; i < 9 * 9; ++i) heights.push_back(float(random.uniform(-0.3, 0.3)));
-  return height_field_shape(heights, 9, 0.4f, 0.4f, "sheet");
 }
 
 Shape three_parts()
@@ -141,8 +134,8 @@ Scene bodies_with_distances(Random &random)
 {
   Scene scene = empty_scene({0, 0, 0});
   add_ground(scene);
-  const Shape shapes[] = {sphere_shape(0.7f),         box_shape(0.8f, 0.3f, 0.5f), capsule_shape(0.3f, 0.8f),
-                          cylinder_shape(0.6f, 0.4f), rough_sheet(random),         three_parts()};
+  const Shape shapes[] = {sphere_shape(0.7f),         box_shape(0.8f, 0.3f, 0.5f),       capsule_shape(0.3f, 0.8f),
+                          cylinder_shape(0.6f, 0.4f), any_height_field(random, 9, 0.4f), three_parts()};
   for (int k = 0; k < 36; ++k) {
     const Point at{random.uniform(-3, 3), random.uniform(0, 5), random.uniform(-3, 3)};
     Body &body = add_body(scene, BodyType::fixed, shapes[k % 6], at);
@@ -256,8 +249,8 @@ TEST_CASE("a sphere overlaps every body that is nearer than its radius in double
           slope[axis] = distance_to_body(scene, body, point + 1e-6 * Vector::Unit(axis)) -
                         distance_to_body(scene, body, point - 1e-6 * Vector::Unit(axis));
         if (slope.norm() < 1e-9) break;
-        point += (double{radius} + (k % 4 == 1 ? hair : -hair) - distance_to_body(scene, body, point)) *
-                 slope.normalized();
+        point +=
+            (double{radius} + (k % 4 == 1 ? hair : -hair) - distance_to_body(scene, body, point)) * slope.normalized();
       }
     }
     poses.push_back({point_of(point), random.orientation()});

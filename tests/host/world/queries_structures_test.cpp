@@ -143,13 +143,6 @@ Questions questions_about(const Scene &scene, Random &random, size_t count, doub
   return q;
 }
 
-Shape hills(Random &random)
-{
-  std::vector<float> heights;
-  for (int i = 0; i < 12 * 12; ++i) heights.push_back(float(random.uniform(-0.3, 0.3)));
-  return height_field_shape(heights, 12, 0.5f, 0.5f, "hills");
-}
-
 Shape dumbbell()
 {
   std::vector<Child> children(2);
@@ -167,7 +160,8 @@ Scene dense_cluster(int n, double size, Random &random)
   add_ground(scene);
   for (int i = 0; i < n; ++i) {
     const Point at = anywhere(random, {0, 0, 0}, random.below(12) ? size : 50 * size);
-    if (random.below(15) == 0) add_body(scene, BodyType::fixed, hills(random), at).orientation = random.orientation();
+    if (random.below(15) == 0)
+      add_body(scene, BodyType::fixed, any_height_field(random, 12, 0.5f), at).orientation = random.orientation();
     else if (random.below(15) == 0) add_body(scene, BodyType::fixed, dumbbell(), at);
     else if (random.below(12) == 0)
       add_body(scene, BodyType::fixed, random.below(2) ? box_shape(9, 0.2f, 14) : sphere_shape(8), at);
