@@ -1,8 +1,14 @@
 # embed_kernels(target): compiles cl/*.cl, with every include and entry written out, into the target.
-file(GLOB embed_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tools/embed/*.cpp)
-add_executable(embed_kernels ${embed_sources})
-target_include_directories(embed_kernels PRIVATE ${PROJECT_SOURCE_DIR})
-set_target_properties(embed_kernels PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/build-tools)
+set(TANDEM_EMBEDDER_FROM "" CACHE PATH "Build folder of this source whose embed_kernels does for this tree, too")
+if(TANDEM_EMBEDDER_FROM)
+  add_executable(embed_kernels IMPORTED GLOBAL)
+  set_target_properties(embed_kernels PROPERTIES IMPORTED_LOCATION ${TANDEM_EMBEDDER_FROM}/build-tools/embed_kernels)
+else()
+  file(GLOB embed_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tools/embed/*.cpp)
+  add_executable(embed_kernels ${embed_sources})
+  target_include_directories(embed_kernels PRIVATE ${PROJECT_SOURCE_DIR})
+  set_target_properties(embed_kernels PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/build-tools)
+endif()
 
 function(embed_kernels target)
   file(GLOB programs CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} cl/*.cl)

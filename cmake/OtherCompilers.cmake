@@ -1,10 +1,12 @@
 # What a tree of another compiler or of other options (presets golden-*) need not compile.
 #
-# Compilers may differ in what computes: kernels, scenes, geometry, the pipeline. What reads files, talks to OpenCL and
+# Compilers may differ in what computes: kernels, scenes, geometry, the pipeline. What reads files, runs launches and
 # keeps the books of a world takes half of the time and computes next to nothing, so it comes from TANDEM_OBJECTS_FROM.
+# So do kernels of which no hash is compared: those in double, and those that only reverse the order of others.
 foreach(objects tandem_objects tandem_io_objects)
   get_target_property(sources ${objects} SOURCES)
-  list(FILTER sources EXCLUDE REGEX "/host/(io|world|runtime/opencl)/|/embedded_kernels[.]cpp$")
+  list(FILTER sources EXCLUDE REGEX
+    "/host/(io|world|runtime)/|/(embedded_kernels|worker_threads|backward|reference|reference_storage)[.]cpp$")
   set_target_properties(${objects} PROPERTIES SOURCES "${sources}")
 endforeach()
 set_target_properties(tandem_io_objects PROPERTIES DISABLE_PRECOMPILE_HEADERS ON) # it has one group of sources

@@ -1,4 +1,4 @@
-/* backward.cpp - the scalar kernels with the phases of work-groups run in reverse order. A race between items of one
+/* backward.cpp - the scalar kernels of work-groups with their phases run in reverse order. A race between items of one
  * phase then shows as a difference between forward and backward, on the CPU alone. */
 #define TANDEM_BACKWARD
 #define WIDTH backward

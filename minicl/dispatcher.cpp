@@ -85,14 +85,25 @@ const KernelTable &pipeline_table(Width width)
   }
 }
 
-/* The functions of all modules, by the kernel's number. */
-std::vector<RunRange> ranges_of(Width width)
+/* The functions of all modules, by the kernel's number; null where this width does not have one. */
+std::vector<RunRange> compiled_ranges(Width width)
 {
   const KernelTable &pipeline = pipeline_table(width);
   std::vector<RunRange> ranges(kernel_count);
   if (pipeline.run) std::copy_n(pipeline.run, kernel_count, ranges.begin());
   for (size_t i = 0; i < module_count(); ++i)
     for (size_t row = 0; row < module_at(i).kernels(); ++row) ranges.push_back(module_at(i).run(width, row));
+  return ranges;
+}
+
+/* Items have no phases to be run in reverse, so the backward width takes those kernels as they are. */
+std::vector<RunRange> ranges_of(Width width)
+{
+  std::vector<RunRange> ranges = compiled_ranges(width);
+  if (width != Width::backward) return ranges;
+  const std::vector<RunRange> scalar = compiled_ranges(Width::scalar);
+  for (size_t i = 0; i < ranges.size(); ++i)
+    if (!ranges[i]) ranges[i] = scalar[i];
   return ranges;
 }
 

@@ -74,13 +74,14 @@ for preset in $compilers; do
   fi
   borrowed=$PWD/build/release
   [ "$preset" = golden-aarch64 ] && borrowed= # another processor
-  cmake --preset "$preset" "-DTANDEM_OBJECTS_FROM=$borrowed"
+  cmake --preset "$preset" "-DTANDEM_OBJECTS_FROM=$borrowed" "-DTANDEM_EMBEDDER_FROM=$PWD/build/release"
   cmake --build --preset "$preset" -j "$jobs" --target golden_hashes
 done
 
 for preset in $sanitizers; do
   printf '\n== %s\n' "$preset"
-  cmake --preset "$preset" -DTANDEM_BUILD_TESTS=ON "-DTANDEM_OBJECTS_FROM=$PWD/build/release"
+  cmake --preset "$preset" -DTANDEM_BUILD_TESTS=ON "-DTANDEM_OBJECTS_FROM=$PWD/build/release" \
+      "-DTANDEM_EMBEDDER_FROM=$PWD/build/release"
   cmake --build --preset "$preset" -j "$jobs" --target tandem_tests # and the programs that it runs
 done
 

@@ -2,8 +2,9 @@
 # header_syntax.sh - every header of shared/ must stand on its own as strict C99, C++ and OpenCL C.
 #
 # The shared source is compiled by whichever OpenCL compiler a user's driver brings; what all three front ends accept
-# without a warning is the portable part of the language. Each header is included alone, so it must include what it
-# uses.
+# without a warning is the portable part of the language. In C99 each header is included alone, so it must include what
+# it uses. In the others, whose own headers take most of the time, all are included in one source, once from the first
+# to the last and once the other way round.
 #
 # Usage: header_syntax.sh c99|cxx|opencl ROOT     exit status 77 (skipped) where the compiler is not installed
 #        header_syntax.sh --self-test DIR         plants a wrong header for each language and expects its refusal
@@ -21,10 +22,29 @@ compile() {
   esac
 }
 
-# The CPU also builds the shared source in double precision, as the reference.
-check_header() {
-  echo "#include \"$3\"" | compile "$1" "$2" || return 1
-  [ "$1" = opencl ] || echo "#include \"$3\"" | compile "$1" "$2" -DTANDEM_REFERENCE
+# The CPU also builds the shared source in double precision, as the reference: compile_both LANGUAGE ROOT INCLUDES.
+compile_both() {
+  echo "$3" | compile "$1" "$2" || return 1
+  [ "$1" = opencl ] || echo "$3" | compile "$1" "$2" -DTANDEM_REFERENCE
+}
+
+# check_each LANGUAGE ROOT HEADERS: prints how many do not stand alone.
+check_each() {
+  wrong=0
+  for header in $3; do
+    compile_both "$1" "$2" "#include \"$header\"" >&2 && continue
+    wrong=$((wrong + 1))
+    echo "$header: not $1 on its own" >&2
+  done
+  echo "$wrong"
+}
+
+# check_together LANGUAGE ROOT HEADERS: prints how many orders of all of them are wrong.
+check_together() {
+  wrong=0 includes=$(echo "$3" | sed 's/.*/#include "&"/')
+  compile_both "$1" "$2" "$includes" >&2 || wrong=$((wrong + 1))
+  compile_both "$1" "$2" "$(echo "$includes" | sort -r)" >&2 || wrong=$((wrong + 1))
+  echo "$wrong"
 }
 
 check() {
@@ -35,13 +55,14 @@ check() {
     *) echo "header_syntax.sh: unknown language '$1': c99, cxx or opencl" >&2; exit 2 ;;
   esac
   command -v "$compiler" >/dev/null || { echo "$compiler is not installed: skipped"; exit 77; }
-  count=0 wrong=0
-  for header in $(cd "$2" && find shared -name '*.h' | sort); do
-    count=$((count + 1))
-    check_header "$1" "$2" "$header" || { wrong=$((wrong + 1)); echo "$header: not $1 on its own"; }
-  done
-  echo "$1: $count headers, $wrong wrong"
-  [ "$count" -gt 0 ] && [ "$wrong" -eq 0 ]
+  headers=$(cd "$2" && find shared -name '*.h' | sort)
+  [ "$headers" ] || { echo "$1: no headers in $2/shared" >&2; return 1; }
+  case $1 in
+    c99) wrong=$(check_each "$@" "$headers") ;;
+    *) wrong=$(check_together "$@" "$headers") ;;
+  esac
+  echo "$1: $(echo "$headers" | wc -l) headers, $wrong wrong"
+  [ "$wrong" -eq 0 ]
 }
 
 # expect STATUS LANGUAGE CODE: a tree whose one header holds CODE.

@@ -96,7 +96,7 @@ void fail_everywhere_in_command(
 {
   uint64_t failures = 0;
   for (const bool once : {true, false})
-    for (uint64_t nth = 0;; nth += (once ? stride : 7 * stride) * tests::share_of_faults(3)) {
+    for (uint64_t nth = 0;; nth += (once ? stride : 7 * stride) * tests::share_of_faults(5)) {
       CAPTURE(words, nth, once);
       const Ending ending = run(words, nth, once);
       check_ending(ending);

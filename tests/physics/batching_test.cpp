@@ -66,7 +66,7 @@ Scene slab_under_small_boxes()
 
 } // namespace
 
-TEST_CASE("constraints of one colour share no moving body", "[physics][sanitizer]")
+TEST_CASE("constraints of one colour share no moving body", "[physics][address]")
 {
   const Batching batching = GENERATE(from_range(choices<Batching>()));
   const std::string name = GENERATE("box-grid:nx=4,ny=4,nz=4", "mixed:n=150", "spheres:n=150");

@@ -84,10 +84,9 @@ TEST_CASE("bullets stay in a room of thin walls, also where one turns them into 
                                  -Vector::UnitY(), Vector::UnitZ(),  -Vector::UnitZ()};
     for (int k = 0; k < 4; ++k) walls.push_back(direction(random));
     for (const Vector &normal : walls) {
-      const Eigen::Quaterniond q = Eigen::Quaterniond::FromTwoVectors(Vector::UnitY(), normal);
       Body &wall = add_body(scene, BodyType::fixed, box_shape(3, float(thickness / 2), 3),
                             point_of(normal * (1 + thickness / 2)));
-      wall.orientation = {float(q.x()), float(q.y()), float(q.z()), float(q.w())};
+      wall.orientation = turn_of_y_to(normal);
     }
     for (const Shape &shape : bullets(random, float(random.uniform(0.01, 0.08)))) {
       Body &body = add_dynamic_body(scene, shape, 0.5 * direction(random), random.orientation(), 0.1f);

@@ -13,7 +13,7 @@ constexpr double epsilon = 0x1p-23;
 
 } // namespace
 
-TEST_CASE("free fall and projectiles follow the parabola to float rounding", "[physics][sanitizer]")
+TEST_CASE("free fall and projectiles follow the parabola to float rounding", "[physics][address]")
 {
   const double step = GENERATE(1.0 / 30, 1.0 / 60, 1.0 / 100);
   const uint32_t substeps = GENERATE(1, 4, 7);

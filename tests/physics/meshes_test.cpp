@@ -204,11 +204,7 @@ TEST_CASE("a field of heights is where its heights say", "[physics]")
   scene.materials[0].dynamic_friction = 2;
   add_mesh(scene, height_field_shape(heights, 13, 0.5f, 0.25f, "field"));
   const Vector up = Vector(-0.3, 1, 0.2).normalized();
-  const Quat tilt = [&] {
-    const Eigen::Quaterniond q = Eigen::Quaterniond::FromTwoVectors(Vector(0, 1, 0), up);
-    return Quat{float(q.x()), float(q.y()), float(q.z()), float(q.w())};
-  }();
-  add_dynamic_body(scene, box_shape(0.3f, 0.1f, 0.2f), Vector(1, height(1, -0.3), -0.3) + 0.11 * up, tilt);
+  add_dynamic_body(scene, box_shape(0.3f, 0.1f, 0.2f), Vector(1, height(1, -0.3), -0.3) + 0.11 * up, turn_of_y_to(up));
   World world(scene);
   run(world, 120);
   const Vector at = vector_of(world.bodies()[1].position);

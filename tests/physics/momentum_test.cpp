@@ -97,7 +97,7 @@ Scene impact(Random &random, int kind, float friction, float restitution)
   return scene;
 }
 
-TEST_CASE("an impact of two bodies conserves momentum and adds hardly any energy", "[physics][sanitizer]")
+TEST_CASE("an impact of two bodies conserves momentum and adds hardly any energy", "[physics][address]")
 {
   const float friction = GENERATE(0.0f, 0.6f), restitution = GENERATE(0.0f, 0.5f, 1.0f);
   Random random(11);

@@ -42,6 +42,14 @@ inline Quat turn_about(const Vector &axis, double angle)
   return {float(q.x()), float(q.y()), float(q.z()), float(q.w())};
 }
 
+/* The turn of the y axis to a unit vector. Eigen's FromTwoVectors decomposes a matrix for it, which takes seconds to
+ * compile. */
+inline Quat turn_of_y_to(const Vector &unit)
+{
+  const Vector axis = Vector::UnitY().cross(unit);
+  return turn_about(axis.norm() > 0 ? axis : Vector(Vector::UnitX()), std::atan2(axis.norm(), unit.y()));
+}
+
 /* A random unit vector, uniform over the sphere. */
 inline Vector direction(Random &random)
 {

@@ -50,7 +50,7 @@ Scene dense_cluster(const Shape &shape, int n)
 
 } // namespace
 
-TEST_CASE("a body that is not finite is named and quarantined, and the rest go on", "[physics][sanitizer]")
+TEST_CASE("a body that is not finite is named and quarantined, and the rest go on", "[physics][address]")
 {
   constexpr float nan = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
   BodyState poison{{0, 5, 0}, {0, 0, 0, 1}, {0, 0, 0}, {0, 0, 0}};

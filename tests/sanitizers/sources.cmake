@@ -1,5 +1,5 @@
-# The files of tests that a sanitizer tree runs: those with a test tagged [sanitizer], and whole files that read what
-# others wrote. Files that compile shared/ or the dispatcher's threads into themselves are instrumented
+# The files of tests that a sanitizer tree runs: those with a test tagged [sanitizer] or [address], and whole files that
+# read what others wrote. Files that compile shared/ or the dispatcher's threads into themselves are instrumented
 # (`watched_tests`); the others only call the library (`lent_tests`), and are borrowed where there is a tree to borrow
 # from (cmake/Sanitizers.cmake). The tree that lends needs these lists, too, since it joins sources (tests/join.cmake).
 set(reader_tests io/bad_shapes_test io/contact_problem/file_test io/obj/mesh_test io/gltf/scene_test io/json/scene_test
@@ -9,7 +9,7 @@ list(APPEND reader_tests tools/command/command_test tools/command/hostile_files_
 set(watched_tests)
 set(lent_tests)
 foreach(source IN LISTS TEST_SOURCES)
-  file(STRINGS ${source} tags REGEX "\\[sanitizer\\]" LIMIT_COUNT 1)
+  file(STRINGS ${source} tags REGEX "\\[(sanitizer|address)\\]" LIMIT_COUNT 1)
   file(STRINGS ${source} kernels REGEX "^#include \"shared/|__SANITIZE_" LIMIT_COUNT 1)
   cmake_path(RELATIVE_PATH source BASE_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR} OUTPUT_VARIABLE path)
   cmake_path(REMOVE_EXTENSION path OUTPUT_VARIABLE name)

@@ -1,6 +1,7 @@
 # The tests of a sanitizer tree (presets asan and tsan): the Catch2 tests tagged [sanitizer], among them scenes large
-# enough that kernels are split over several threads; whole files of tests of what reads files and of the command; and
-# faults that must be seen. Drivers of OpenCL are not instrumented: left out.
+# enough that kernels are split over several threads, and for addresses those tagged [address], too; whole files of
+# tests of what reads files and of the command; and faults that must be seen. Drivers of OpenCL are not instrumented:
+# left out.
 set(launcher)
 if(TANDEM_SANITIZE MATCHES thread)
   # The thread sanitizer of some compilers cannot place its shadow memory under strong address randomisation.
@@ -13,13 +14,17 @@ endif()
 function(sanitizer_test name)
   tandem_test(NAME sanitizer.${name} LABEL sanitizer TIMEOUT 900
     ENVIRONMENT TANDEM_COMMAND=$<TARGET_FILE:tandem_command> OCL_ICD_VENDORS=/nonexistent
-      OPENCL_VENDOR_PATH=/nonexistent TANDEM_TEST_SHARE_OF_FAULTS=7
+      OPENCL_VENDOR_PATH=/nonexistent TANDEM_TEST_SHARE_OF_FAULTS=31
     COMMAND ${launcher} ${ARGN})
   # which would ask for these drivers
   set_property(TEST sanitizer.${name} APPEND PROPERTY ENVIRONMENT_MODIFICATION CI=unset:)
 endfunction()
 
-sanitizer_test(unit $<TARGET_FILE:tandem_tests> ${fail_without_tests} "[sanitizer]")
+set(tagged "[sanitizer]")
+if(TANDEM_SANITIZE MATCHES address)
+  string(APPEND tagged ",[address]")
+endif()
+sanitizer_test(unit $<TARGET_FILE:tandem_tests> ${fail_without_tests} ${tagged})
 
 if(TARGET tandem_heap_tests)
   sanitizer_test(heap $<TARGET_FILE:tandem_heap_tests> ${fail_without_tests} "[sanitizer]")
@@ -62,7 +67,8 @@ if(TANDEM_SANITIZE MATCHES address)
   endfunction()
   file(STRINGS /proc/cpuinfo processor REGEX "^flags" LIMIT_COUNT 1)
   sees_overruns(serial scalar serial)
-  sees_overruns(backward backward serial:order=backward)
+  sanitizer_sees(overrun.backward "run_groups<tandem::backward::" overrun cell_start serial:order=backward)
+  sanitizer_test(exact.backward $<TARGET_FILE:tandem_planted> exact cell_start serial:order=backward)
   sees_overruns(reference reference reference:threads=1)
   sees_overruns(lanes4 lanes4 tbb:threads=2,lanes=4)
   if(processor MATCHES " avx2 ")

@@ -111,7 +111,7 @@ std::string refusal_of_points(const std::vector<Vec3> &points)
 
 } // namespace
 
-TEST_CASE("convex hull: regular solids have their vertices, edges and faces", "[sanitizer]")
+TEST_CASE("convex hull: regular solids have their vertices, edges and faces", "[address]")
 {
   CHECK(sizes(checked_hull(box_corners(1, 2, 3))) == Sizes{8, 12, 6});
   CHECK(sizes(checked_hull({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}})) == Sizes{4, 6, 4});
@@ -136,7 +136,7 @@ TEST_CASE(
   CHECK(radius_about(hull, {1, 2, 3}) == Approx(2 * std::sqrt(14.0)));
 }
 
-TEST_CASE("convex hull: a round prism has one face a cap, however it is turned", "[sanitizer]")
+TEST_CASE("convex hull: a round prism has one face a cap, however it is turned", "[address]")
 {
   const std::vector<Vec3> prism = prism_points(64);
   Random random(3);
@@ -157,7 +157,7 @@ TEST_CASE("convex hull: points on a sphere are all vertices, and nearly all face
 }
 
 TEST_CASE("convex hull: points inside, on faces and on edges are no vertices, although roundings put some outside",
-          "[sanitizer]")
+          "[address]")
 {
   std::vector<Vec3> grid;
   for (int x = -5; x <= 5; ++x)
@@ -203,7 +203,7 @@ TEST_CASE("convex hull: hulls hardly thicker than the tolerance lose no point by
 }
 
 TEST_CASE("convex hull: where a round surface is flat within the tolerance, joined faces stay convex and flat",
-          "[sanitizer]")
+          "[address]")
 {
   for (double distance : {1000.0, 3000.0, 10000.0, 30000.0}) {
     const ConvexHull hull =
@@ -221,7 +221,7 @@ TEST_CASE("convex hull: far from the origin, roundings of the coordinates make n
                                      Vector(1, -0.7, 0.3) * distance))) == Sizes{8, 12, 6});
 }
 
-TEST_CASE("convex hull: the same at every size, to the bit for powers of two", "[sanitizer]")
+TEST_CASE("convex hull: the same at every size, to the bit for powers of two", "[address]")
 {
   const std::vector<Vec3> points = sphere_points(200, 2);
   const ConvexHull hull = checked_hull(points);
@@ -274,7 +274,7 @@ TEST_CASE("convex hull: moved to its centroid, planes follow the rounded vertice
   check_planes(centered, centered.vertices);
 }
 
-TEST_CASE("convex hull: any cloud of points gives a closed convex surface", "[sanitizer]")
+TEST_CASE("convex hull: any cloud of points gives a closed convex surface", "[address]")
 {
   Random random(8);
   for (int turn = 0; turn < 300; ++turn) {

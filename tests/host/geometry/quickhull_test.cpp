@@ -46,7 +46,7 @@ std::set<std::set<std::array<double, 3>>> faces_by_place(const std::vector<Vecto
 
 } // namespace
 
-TEST_CASE("quickhull: every surface is closed, and no point lies above a face, by exact numbers", "[sanitizer]")
+TEST_CASE("quickhull: every surface is closed, and no point lies above a face, by exact numbers", "[address]")
 {
   Random random(1);
   int surfaces = 0;
@@ -64,7 +64,7 @@ TEST_CASE("quickhull: every surface is closed, and no point lies above a face, b
   CHECK(surfaces > 250);
 }
 
-TEST_CASE("quickhull: points in a plane, a line or a place have no hull", "[sanitizer]")
+TEST_CASE("quickhull: points in a plane, a line or a place have no hull", "[address]")
 {
   Random random(2);
   std::vector<Vector> plane, line, place;
@@ -82,7 +82,7 @@ TEST_CASE("quickhull: points in a plane, a line or a place have no hull", "[sani
   CHECK_FALSE(hull_triangles(plane, 0).empty());
 }
 
-TEST_CASE("quickhull: within a tolerance, points little above a face are no corners, and others are", "[sanitizer]")
+TEST_CASE("quickhull: within a tolerance, points little above a face are no corners, and others are", "[address]")
 {
   std::vector<Vector> points;
   for (int i = 0; i < 8; ++i) points.push_back({i & 1 ? 0.4 : -0.4, i & 2 ? 0.4 : -0.4, i & 4 ? 0.4 : -0.4});
@@ -93,7 +93,7 @@ TEST_CASE("quickhull: within a tolerance, points little above a face are no corn
   CHECK(hull_triangles(points, 1e-6).size() == 14);
 }
 
-TEST_CASE("quickhull: the order of the points changes no face", "[sanitizer]")
+TEST_CASE("quickhull: the order of the points changes no face", "[address]")
 {
   Random random(3);
   for (int turn = 0; turn < 50; ++turn) {

@@ -90,7 +90,7 @@ std::vector<uint64_t> hashes_after(World &world, int steps)
 
 } // namespace
 
-TEST_CASE("a call that fails anywhere changes nothing, and can be made again", "[sanitizer]")
+TEST_CASE("a call that fails anywhere changes nothing, and can be made again", "[address]")
 {
   Settings settings;
   settings.events = settings.moved_bodies = true;

@@ -211,7 +211,7 @@ TEST_CASE("islands wake also where more pairs have come since than a step may ha
 }
 
 /* The trigger passes over the box for four seconds, of which the box would sleep from the first half on. */
-TEST_CASE("a trigger that moves over a sleeper wakes it once and lets it sleep when it has passed", "[sanitizer]")
+TEST_CASE("a trigger that moves over a sleeper wakes it once and lets it sleep when it has passed", "[address]")
 {
   Body trigger = body_at({-6, 0.5, 0}, 1);
   trigger.type = BodyType::kinematic;
@@ -238,7 +238,7 @@ TEST_CASE("a trigger that moves over a sleeper wakes it once and lets it sleep w
 }
 
 /* A box is about to fall asleep in one of these steps, and its first speed is below the limit of rest. */
-TEST_CASE("gravity that changes in any step moves bodies at rest, also those that are about to sleep", "[sanitizer]")
+TEST_CASE("gravity that changes in any step moves bodies at rest, also those that are about to sleep", "[address]")
 {
   for (int steps = 27; steps < 34; ++steps) {
     World world(floor_with({body_at({0, 0.5, 0}, 1)}), sleepy(), {"serial", {}});

@@ -66,7 +66,7 @@ void run(World &world, int steps)
 
 } // namespace
 
-TEST_CASE("a stack with a locked axis that is pushed sideways keeps it to the bit", "[sanitizer]")
+TEST_CASE("a stack with a locked axis that is pushed sideways keeps it to the bit", "[address]")
 {
   const Solver solver = GENERATE(from_range(solvers_with_locks()));
   const Scene scene = crooked_stack(only_z, {});
@@ -88,7 +88,7 @@ TEST_CASE("a stack with a locked axis that is pushed sideways keeps it to the bi
   CHECK(moved > 0.03);
 }
 
-TEST_CASE("bodies of a plane stay in it and turn about its normal alone, to the bit", "[sanitizer]")
+TEST_CASE("bodies of a plane stay in it and turn about its normal alone, to the bit", "[address]")
 {
   const Solver solver = GENERATE(from_range(solvers_with_locks()));
   CAPTURE(solver);
@@ -115,7 +115,7 @@ TEST_CASE("bodies of a plane stay in it and turn about its normal alone, to the 
   CHECK(turned > 0.05f);
 }
 
-TEST_CASE("a body with all axes locked stands in the air, whatever falls on it", "[sanitizer]")
+TEST_CASE("a body with all axes locked stands in the air, whatever falls on it", "[address]")
 {
   const Solver solver = GENERATE(from_range(solvers_with_locks()));
   CAPTURE(solver);
@@ -230,7 +230,7 @@ TEST_CASE("the solver avbd refuses locks wherever they come from", "[sanitizer]"
   CHECK_NOTHROW(World(scene, settings, {"serial", {}}));
 }
 
-TEST_CASE("a falling body does not become faster than its highest speed", "[sanitizer]")
+TEST_CASE("a falling body does not become faster than its highest speed", "[address]")
 {
   const Solver solver = GENERATE(from_range(choices<Solver>()));
   CAPTURE(solver);

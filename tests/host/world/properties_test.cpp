@@ -222,7 +222,7 @@ int passed(bool continuous)
 
 } // namespace
 
-TEST_CASE("bodies that become continuous stop at a thin wall that others pass", "[sanitizer]")
+TEST_CASE("bodies that become continuous stop at a thin wall that others pass", "[address]")
 {
   CHECK(passed(false) > 0);
   CHECK(passed(true) == 0);

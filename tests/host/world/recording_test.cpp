@@ -244,7 +244,7 @@ TEST_CASE("a recording that cannot be written says so", "[sanitizer]")
   world.step();
 }
 
-TEST_CASE("every byte of a recording matters: damaged ones are refused, cut ones end after a whole step", "[sanitizer]")
+TEST_CASE("every byte of a recording matters: damaged ones are refused, cut ones end after a whole step", "[address]")
 {
   const Bytes whole = small_recording();
   Bytes damaged = whole;
@@ -285,7 +285,7 @@ void seal_again(Bytes &bytes)
 
 } // namespace
 
-TEST_CASE("no byte of a recording that was sealed again makes the replay fail otherwise", "[sanitizer]")
+TEST_CASE("no byte of a recording that was sealed again makes the replay fail otherwise", "[address]")
 {
   const Bytes whole = small_recording();
   uint64_t refused = 0, different = 0, equal = 0;

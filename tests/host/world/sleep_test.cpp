@@ -231,7 +231,7 @@ TEST_CASE("what loses its support wakes and falls", "[sanitizer]")
 }
 
 /* On the moon a body falls for a while before it is faster than what counts as rest. */
-TEST_CASE("what loses its support in the step before it would sleep falls all the same", "[sanitizer]")
+TEST_CASE("what loses its support in the step before it would sleep falls all the same", "[address]")
 {
   for (int last = half_second - 3; last < half_second + 12; ++last) {
     Scene scene = floor_with_boxes({{0, 0.5, 0}, {0, 1.5, 0}});

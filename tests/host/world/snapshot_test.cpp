@@ -253,7 +253,7 @@ TEST_CASE("bodies that were quarantined stay out of a restored world", "[sanitiz
   CHECK(restored.read_body(id).position == world.read_body(id).position);
 }
 
-TEST_CASE("every byte of a snapshot matters: damaged and cut ones are refused, and the world stays", "[sanitizer]")
+TEST_CASE("every byte of a snapshot matters: damaged and cut ones are refused, and the world stays", "[address]")
 {
   const Bytes snapshot = small_snapshot();
   World world(snapshot, {"serial", {}});
@@ -300,7 +300,7 @@ TEST_CASE("messages about snapshots say what is wrong", "[sanitizer]")
 }
 
 /* The hash keeps accidents out; with the hash of what was changed, the reader itself must hold. */
-TEST_CASE("no byte of a snapshot that was sealed again makes the reader fail otherwise", "[sanitizer]")
+TEST_CASE("no byte of a snapshot that was sealed again makes the reader fail otherwise", "[address]")
 {
   const Bytes snapshot = small_snapshot();
   uint64_t refused = 0, read = 0;
@@ -324,7 +324,7 @@ TEST_CASE("no byte of a snapshot that was sealed again makes the reader fail oth
   CHECK(read > 1000);
 }
 
-TEST_CASE("no cut of a snapshot that was sealed again makes the reader fail otherwise", "[sanitizer]")
+TEST_CASE("no cut of a snapshot that was sealed again makes the reader fail otherwise", "[address]")
 {
   const Bytes snapshot = small_snapshot();
   for (size_t length = seal_bytes; length < snapshot.size(); ++length) {

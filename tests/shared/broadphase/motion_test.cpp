@@ -157,7 +157,7 @@ TEST_CASE("broadphases that keep something are right in each of two hundred step
 TEST_CASE("broadphases that keep something are right among many", "[motion]")
 {
   BroadphaseRunner runner(make_backend("tbb"));
-  const Motion motion(20000, 0.02, 0, 40);
+  const Motion motion(20000, 0.02, 0, 15);
   for (const Broadphase broadphase : keeping) check_motion(runner, broadphase, motion);
 }
 
@@ -165,7 +165,7 @@ TEST_CASE("broadphases on OpenCL that keep something are right in each step of m
 {
   parity::require_pocl();
   BroadphaseRunner runner(make_backend("cl:pocl"));
-  const Motion motions[] = {{2, 0.1, 0, 20}, {400, 0.1, 0, 200}};
+  const Motion motions[] = {{2, 0.1, 0, 20}, {400, 0.1, 0, 60}};
   for (const Broadphase broadphase : keeping)
     for (const Motion &motion : motions) check_motion(runner, broadphase, motion);
 }

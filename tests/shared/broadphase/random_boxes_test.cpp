@@ -171,12 +171,12 @@ TEST_CASE("broadphases find the pairs of the oracle in any soup")
     }
 }
 
-TEST_CASE("broadphases find the pairs of fifty thousand boxes")
+TEST_CASE("broadphases find the pairs of twenty thousand boxes")
 {
   BroadphaseRunner runner(make_backend("tbb"));
   Random random(78);
   for (const Kind &kind : kinds) {
-    const RandomBoxes boxes = kind.make(50000, random);
+    const RandomBoxes boxes = kind.make(20000, random);
     const BodyPairs expected = expected_pairs(boxes);
     CAPTURE(kind.name, expected.size());
     check_all(runner, boxes, expected, kind.suits_all);
@@ -216,21 +216,22 @@ TEST_CASE("a body that is not finite has no pairs, and spoils no others")
   }
 }
 
-TEST_CASE("ten million pairs in one place grow the list, and all are there")
+TEST_CASE("three million pairs in one place grow the list, and all are there")
 {
+  const uint32_t most = 2500;
   RandomBoxes boxes;
   Random random(81);
-  for (uint32_t i = 0; i < 4600; ++i) boxes.add({0, 0, 0}, {float(random.uniform(0.5, 1)), 1, 1});
+  for (uint32_t i = 0; i < most; ++i) boxes.add({0, 0, 0}, {float(random.uniform(0.5, 1)), 1, 1});
   BroadphaseRunner runner(make_backend("tbb"));
   runner.take(boxes);
   for (const Broadphase choice :
        {Broadphase::grid, Broadphase::sap, Broadphase::sap3, Broadphase::bvh, Broadphase::trees}) {
     CAPTURE(choice);
     const BodyPairs found = runner.find(row_of(choice));
-    REQUIRE(found.size() == 4600u * 4599u / 2);
+    REQUIRE(found.size() == most * (most - 1) / 2);
     size_t k = 0;
     bool right = true;
-    for (uint32_t a = 1; a < 4600; ++a)
+    for (uint32_t a = 1; a < most; ++a)
       for (uint32_t b = 0; b < a; ++b, ++k) right = right && found[k] == std::pair(a, b);
     CHECK(right);
   }

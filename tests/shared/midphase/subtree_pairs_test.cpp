@@ -171,7 +171,7 @@ uint32_t subtrees_of(const Scene &scene, uint32_t tree)
 
 } // namespace
 
-TEST_CASE("leaf pairs of one tree: of one subtree, of a few, of many windows of them", "[sanitizer]")
+TEST_CASE("leaf pairs of one tree: of one subtree, of a few, of many windows of them", "[address]")
 {
   const auto [columns, least, most] =
       GENERATE(table<uint32_t, uint32_t, uint32_t>({{2, 1, 1}, {9, 2, WINDOW}, {61, 8 * WINDOW, 1000}}));

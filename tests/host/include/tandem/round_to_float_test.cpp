@@ -32,7 +32,7 @@ bool holds_a_float(double x) { return (std::bit_cast<uint64_t>(x) & 0x1fffffffu)
 
 } // namespace
 
-TEST_CASE("round to float: to the nearest, of two equally near to the even one", "[sanitizer]")
+TEST_CASE("round to float: to the nearest, of two equally near to the even one", "[address]")
 {
   uint64_t state = 1;
   for (int i = 0; i < 100000; ++i) {
@@ -46,7 +46,7 @@ TEST_CASE("round to float: to the nearest, of two equally near to the even one",
   }
 }
 
-TEST_CASE("round to float: positions of built scenes hold floats, in every kind of scene", "[sanitizer]")
+TEST_CASE("round to float: positions of built scenes hold floats, in every kind of scene", "[address]")
 {
   for (const char *name :
        {"box-grid:nx=3,ny=2,nz=3", "falling-boxes:n=40", "spheres:n=40", "mixed:n=40", "box-stack:n=30,gap=0.3",
@@ -62,7 +62,7 @@ TEST_CASE("round to float: positions of built scenes hold floats, in every kind 
   }
 }
 
-TEST_CASE("round to float: coordinates of a box-grid are those computed by whole numbers", "[sanitizer]")
+TEST_CASE("round to float: coordinates of a box-grid are those computed by whole numbers", "[address]")
 {
   const Scene scene = load_scene("box-grid:nx=3,ny=2,nz=3");
   size_t body = 1;
@@ -77,7 +77,7 @@ TEST_CASE("round to float: coordinates of a box-grid are those computed by whole
       }
 }
 
-TEST_CASE("round to float: a place keeps in its low part what the high part left over", "[sanitizer]")
+TEST_CASE("round to float: a place keeps in its low part what the high part left over", "[address]")
 {
   const Point points[] = {{1.1, 2.2, 3.3}, {1e6 + 1.0 / 3, -1e6 - 1.0 / 7, 1e-3 / 3}, {-0.7, 123456.789, 98765.4321}};
   for (const Point &p : points) {
