@@ -1,7 +1,7 @@
 # What a sanitizer tree (presets asan and tsan) watches, and what it need not compile.
 #
-# The library is instrumented whole, with the loaders; of the command what a hostile input passes through, where
-# addresses are watched. Other tools and most tests only call it: with TANDEM_OBJECTS_FROM they are the objects of a
+# Where addresses are watched, the library is instrumented whole, with the loaders, and of the command what a hostile
+# input passes through; where threads are, what they share. Other tools and most tests only call it: with TANDEM_OBJECTS_FROM they are the objects of a
 # tree without sanitizers, of the same source and compiler, and take no time. The library is linked before them, so that
 # of inline functions in both, its are taken.
 
@@ -23,11 +23,17 @@ elseif(TANDEM_SANITIZE MATCHES thread)
   set(unwatched_kernels lanes8.cpp lanes16.cpp backward.cpp reference.cpp)
   list(TRANSFORM unwatched_kernels REPLACE "(.+)" "minicl/\\1;minicl/finding/\\1")
   if(TANDEM_OBJECTS_FROM)
-    get_target_property(library_sources tandem_objects SOURCES)
-    list(FILTER library_sources EXCLUDE REGEX "minicl/(finding/)?(lanes8|lanes16|backward|reference)[.]cpp$")
-    set_property(TARGET tandem_objects PROPERTY SOURCES ${library_sources})
-    # which gives what is missing, and no more
-    target_link_libraries(tandem PUBLIC $<BUILD_INTERFACE:${TANDEM_OBJECTS_FROM}/libtandem.a>)
+    # What reads files and builds shapes has no threads, and the drivers of OpenCL are left out.
+    set(unwatched "minicl/(finding/)?(lanes8|lanes16|backward|reference)[.]cpp$" "/embedded_kernels[.]cpp$"
+      "host/(base|geometry|io|scene|runtime/opencl)/") # whole groups of cmake/JoinSources.cmake
+    list(JOIN unwatched "|" unwatched)
+    foreach(library IN LISTS libraries)
+      get_target_property(library_sources ${library}_objects SOURCES)
+      list(FILTER library_sources EXCLUDE REGEX "${unwatched}")
+      set_property(TARGET ${library}_objects PROPERTY SOURCES ${library_sources})
+      # which gives what is missing, and no more
+      target_link_libraries(${library} PUBLIC $<BUILD_INTERFACE:${TANDEM_OBJECTS_FROM}/lib${library}.a>)
+    endforeach()
   else()
     set_property(SOURCE ${unwatched_kernels} APPEND PROPERTY COMPILE_OPTIONS "-fno-sanitize=all")
   endif()

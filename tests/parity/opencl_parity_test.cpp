@@ -23,7 +23,7 @@ Settings all_features()
 TEST_CASE("parity on OpenCL: every scene")
 {
   require_pocl();
-  for (const std::string &scene : small_scenes()) require_parity(scene, {"serial", "cl:pocl"}, 20, all_features());
+  for (const std::string &scene : small_scenes()) require_parity(scene, {"serial", "cl:pocl"}, 12, all_features());
 }
 
 /* A device is given the number of groups to run before the number of pairs of the step is known. */
@@ -41,7 +41,7 @@ TEST_CASE("parity on OpenCL: every broadphase")
     settings.broadphase = broadphase;
     settings.bounds = Bounds::tight;
     settings.pair_events = true;
-    require_parity("mixed:n=60", {"serial", "cl:pocl"}, 20, settings);
+    require_parity("mixed:n=60", {"serial", "cl:pocl"}, 10, settings);
     require_parity("box-grid:nx=11,ny=10,nz=11", {"serial", "cl:pocl"}, 3, settings);
   }
 }
@@ -53,7 +53,7 @@ TEST_CASE("parity on OpenCL: every batching")
     Settings settings = all_features();
     settings.batching = batching;
     settings.check = true;
-    require_parity("mixed:n=60", {"serial", "cl:pocl"}, 20, settings);
+    require_parity("mixed:n=60", {"serial", "cl:pocl"}, 10, settings);
   }
 }
 
@@ -64,8 +64,8 @@ TEST_CASE("parity on OpenCL: every narrowphase")
     Settings settings = all_features();
     settings.narrowphase = narrowphase;
     CAPTURE(narrowphase);
-    require_parity(every_shape(), {"serial", "cl:pocl"}, 20, settings);
-    require_parity("shapes:n=60", {"serial", "cl:pocl"}, 60, settings);
+    require_parity(every_shape(), {"serial", "cl:pocl"}, 10, settings);
+    require_parity("shapes:n=60", {"serial", "cl:pocl"}, 25, settings);
   }
 }
 
