@@ -1,9 +1,9 @@
 # What a sanitizer tree (presets asan and tsan) watches, and what it need not compile.
 #
 # Where addresses are watched, the library is instrumented whole, with the loaders, and of the command what a hostile
-# input passes through; where threads are, what they share. Other tools and most tests only call it: with TANDEM_OBJECTS_FROM they are the objects of a
-# tree without sanitizers, of the same source and compiler, and take no time. The library is linked before them, so that
-# of inline functions in both, its are taken.
+# input passes through; where threads are, what they share. Other tools and most tests only call it: with
+# TANDEM_OBJECTS_FROM they are the objects of a tree without sanitizers, of the same source and compiler, and take no
+# time. The library is linked before them, so that of inline functions in both, its are taken.
 
 # scalar.cpp is watched for all that the sanitizers know. The other widths and orders are the same source: only what
 # depends on them, accesses to buffers, is watched there, by calls: a seventh of the compile time (lanes8.cpp: 54 s for

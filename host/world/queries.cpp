@@ -286,6 +286,7 @@ void launch_query_structure(StepLaunches &step, uint32_t structure)
 
 void cast_rays_on_device(const QueryTarget &target, std::span<const Ray> rays)
 {
+  reserve_hits(target.memory, 0); /* an earlier cast's end here, also where this one has none or fails */
   if (rays.empty()) return;
   upload_rays(target, rays);
   reserve_hits(target.memory, rays.size());
@@ -343,6 +344,7 @@ std::vector<std::vector<BoxHit>> cast_boxes(const QueryTarget &target, std::span
 void cast_shapes_on_device(const QueryTarget &target, const Shape &shape, std::span<const Pose> poses,
                            std::span<const Vec3> displacements, const QueryFilter &filter)
 {
+  reserve_hits(target.memory, 0);
   if (poses.empty()) return;
   const uint32_t vertices = upload_shape_queries(target, shape, poses, displacements, filter);
   reserve_hits(target.memory, poses.size());

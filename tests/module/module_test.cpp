@@ -180,6 +180,25 @@ TEST_CASE("module: a kernel between steps reads the hits of rays and shape casts
   }
 }
 
+TEST_CASE("module: a kernel over more items than there are hits is refused, also when the last cast had none")
+{
+  World world(balls(9), with(pushing(0)), {"serial", {}});
+  const auto refusal = [&] { return message_of([&] { world.run(probe::kernel::probe_see()); }); };
+  const std::string fills = "is empty; World::cast_rays_on_device or cast_shapes_on_device fills it";
+  CHECK_THAT(refusal(), Contains(fills));
+  std::vector<Ray> rays(9);
+  for (Ray &ray : rays) ray.direction = {0, -9, 0};
+  world.cast_rays_on_device(std::span(rays).first(8));
+  CHECK_THAT(refusal(), Contains("has the hits of 8 queries, and the kernel is for up to 9 items"));
+  world.cast_rays_on_device(rays);
+  world.run(probe::kernel::probe_see());
+  world.cast_rays_on_device({});
+  CHECK_THAT(refusal(), Contains(fills));
+  world.cast_rays_on_device(rays);
+  world.cast_shapes_on_device(sphere_shape(0.1f), {}, {});
+  CHECK_THAT(refusal(), Contains(fills));
+}
+
 TEST_CASE("module: contacts that a kernel drops hold nothing")
 {
   Scene scene = balls(4);

@@ -38,11 +38,17 @@ using namespace in_double;
 
 using Counts = std::array<uint32_t, COUNT_TOTAL>;
 
+/* Room for so many, or for twice as many as before, so that bodies that come one by one allocate seldom. */
+template <class T> void make_room(std::vector<T> &list, size_t count)
+{
+  if (list.capacity() < count) list.reserve(std::max(count, 2 * list.capacity()));
+}
+
 /* Reads planes that are `stride` apart on the device and `count` apart here. The list gets room for whole planes, so
  * that only a launch with larger buffers allocates. */
 void read_planes(Memory &memory, Buffer buffer, size_t planes, size_t count, size_t stride, std::vector<float4> &rows)
 {
-  rows.reserve(planes * stride);
+  make_room(rows, planes * stride);
   rows.resize(planes * count);
   for (size_t plane = 0; plane < planes; ++plane)
     memory.read_reals(buffer, reinterpret_cast<double *>(rows.data() + plane * count), 4 * count, 4 * plane * stride);
@@ -50,14 +56,14 @@ void read_planes(Memory &memory, Buffer buffer, size_t planes, size_t count, siz
 
 void read_reals(Memory &memory, Buffer buffer, size_t count, size_t stride, std::vector<double> &reals)
 {
-  reals.reserve(stride);
+  make_room(reals, stride);
   reals.resize(count);
   memory.read_reals(buffer, reals.data(), count);
 }
 
 void read_indices(Memory &memory, Buffer buffer, size_t count, size_t stride, std::vector<uint32_t> &indices)
 {
-  indices.reserve(stride);
+  make_room(indices, stride);
   indices.resize(count);
   memory.download(buffer, indices.data(), count * sizeof(uint32_t));
 }
