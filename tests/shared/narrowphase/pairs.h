@@ -119,13 +119,15 @@ public:
       std::vector<void *> arguments;
       for (const Argument &argument : row_of(kernel).arguments) arguments.push_back(storage(argument.buffer, outputs));
       const auto [first, last] = range_of(kernel);
+      const auto scalar = minicl::scalar_kernels.run[index_of(kernel)], found = table.run[index_of(kernel)],
+                 own = found || table.lanes > 1 ? found : scalar; /* which has what the backward one lacks */
       if (row_of(kernel).execution == Execution::group) {
-        table.run[index_of(kernel)](arguments.data(), 0, (last - first + TILE - 1) / TILE);
+        own(arguments.data(), 0, (last - first + TILE - 1) / TILE);
         continue;
       }
       const uint32_t whole = last - (last - first) % table.lanes;
-      if (whole > first) table.run[index_of(kernel)](arguments.data(), first, whole);
-      if (last > whole) minicl::scalar_kernels.run[index_of(kernel)](arguments.data(), whole, last);
+      if (whole > first) own(arguments.data(), first, whole);
+      if (last > whole) scalar(arguments.data(), whole, last);
     }
     return outputs;
   }
