@@ -286,8 +286,7 @@ void launch_query_structure(StepLaunches &step, uint32_t structure)
 
 void cast_rays_on_device(const QueryTarget &target, std::span<const Ray> rays)
 {
-  reserve_hits(target.memory, 0); /* an earlier cast's end here, also where this one has none or fails */
-  if (rays.empty()) return;
+  if (rays.empty()) return reserve_hits(target.memory, 0); /* those of an earlier cast end */
   upload_rays(target, rays);
   reserve_hits(target.memory, rays.size());
   launch(target, Kernel::cast_rays, rays.size());
@@ -344,8 +343,7 @@ std::vector<std::vector<BoxHit>> cast_boxes(const QueryTarget &target, std::span
 void cast_shapes_on_device(const QueryTarget &target, const Shape &shape, std::span<const Pose> poses,
                            std::span<const Vec3> displacements, const QueryFilter &filter)
 {
-  reserve_hits(target.memory, 0);
-  if (poses.empty()) return;
+  if (poses.empty()) return reserve_hits(target.memory, 0);
   const uint32_t vertices = upload_shape_queries(target, shape, poses, displacements, filter);
   reserve_hits(target.memory, poses.size());
   launch(target, Kernel::cast_shapes, poses.size(), {static_cast<uint32_t>(shape.type), vertices});
