@@ -2,7 +2,10 @@
  *
  * Numbers are little-endian. A list or a text has its length before it, in 8 bytes. The fields of a record are those
  * that fields_of(record) returns, a tuple of references, so that one place names them for both directions
- * (host/world/snapshot_fields.h).
+ * (host/world/snapshot_fields.h). A list of more records than a block holds is in blocks, whose lengths come first, so
+ * that threads write and read them side by side:
+ *
+ *   records | bytes of block 0 | of block 1 | ... | block 0 | block 1 | ...
  *
  * A reader trusts nothing: it checks every length against the bytes that are left before it allocates, and throws
  * InputError with the place in the bytes.
@@ -15,6 +18,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <string>
@@ -26,6 +30,8 @@
 #include <fmt/format.h>
 
 #include <tandem/error.h>
+
+#include "host/base/parts.h"
 
 namespace tandem {
 
@@ -46,11 +52,37 @@ template <class T> struct IsSpan<std::span<T>> : std::true_type {};
 template <class T> struct IsOptional : std::false_type {};
 template <class T> struct IsOptional<std::optional<T>> : std::true_type {};
 
+/* The bytes that a value takes at least. */
+template <class T> constexpr size_t least_bytes()
+{
+  if constexpr (std::is_same_v<T, bool> || IsOptional<T>::value) return 1;
+  else if constexpr (std::is_enum_v<T> || IsPlain<T>::value) return sizeof(T);
+  else if constexpr (std::is_same_v<T, std::string> || IsVector<T>::value || IsSpan<T>::value) return sizeof(uint64_t);
+  else if constexpr (IsArray<T>::value) return std::tuple_size_v<T> * least_bytes<typename T::value_type>();
+  else
+    return []<class... Fields>(const std::tuple<Fields...> *) {
+      return (size_t{0} + ... + least_bytes<std::remove_cvref_t<Fields>>());
+    }(static_cast<const decltype(fields_of(std::declval<T &>())) *>(nullptr));
+}
+
+constexpr size_t block_records = 4096; /* of a list; a part of the format */
+constexpr size_t blocks_of(size_t records)
+{
+  return records > block_records ? (records + block_records - 1) / block_records : 0;
+}
+template <class Element> std::span<Element> block_of(std::span<Element> records, size_t block)
+{
+  const size_t begin = block * block_records;
+  return records.subspan(begin, std::min(block_records, records.size() - begin));
+}
+
 class ByteWriter {
 public:
   ByteWriter() = default;
   /* Writes over these bytes: fresh memory costs several times what writing does. */
-  explicit ByteWriter(std::vector<std::byte> bytes) : bytes_(std::move(bytes)) {}
+  explicit ByteWriter(std::vector<std::byte> bytes, RunParts run_parts = run_parts_in_order)
+      : bytes_(std::move(bytes)), run_parts_(run_parts)
+  {}
 
   void reserve(size_t bytes)
   {
@@ -81,11 +113,23 @@ public:
     using T = std::remove_const_t<Element>;
     put(uint64_t{values.size()});
     if constexpr (IsPlain<T>::value) put_bytes(values.data(), values.size_bytes());
-    else
-      for (const T &value : values) put(value);
+    else if (values.size() > block_records) put_blocks(values);
+    else write_all(values, extend(bytes_of_all(values)));
   }
 
 private:
+  template <class Element> void put_blocks(std::span<Element> records)
+  {
+    std::vector<uint64_t> bytes(blocks_of(records.size())), begins(bytes.size());
+    run_parts_(bytes.size(),
+               PartFunction([&](size_t block) { bytes[block] = bytes_of_all(block_of(records, block)); }));
+    std::exclusive_scan(bytes.begin(), bytes.end(), begins.begin(), uint64_t{0});
+    put_bytes(bytes.data(), bytes.size() * sizeof(uint64_t));
+    std::byte *to = extend(begins.back() + bytes.back());
+    run_parts_(bytes.size(),
+               PartFunction([&](size_t block) { write_all(block_of(records, block), to + begins[block]); }));
+  }
+
   /* A record is measured and then written through a pointer of its own, which the compiler keeps in a register. */
   template <class T> static size_t bytes_of(const T &value)
   {
@@ -93,11 +137,13 @@ private:
     else if constexpr (std::is_enum_v<T> || IsPlain<T>::value) return sizeof value;
     else if constexpr (std::is_same_v<T, std::string>) return sizeof(uint64_t) + value.size();
     else if constexpr (IsArray<T>::value) return bytes_of_all(value);
-    else if constexpr (IsVector<T>::value || IsSpan<T>::value) return sizeof(uint64_t) + bytes_of_all(value);
+    else if constexpr (IsVector<T>::value || IsSpan<T>::value)
+      return sizeof(uint64_t) * (1 + lengths_before<typename T::value_type>(value.size())) + bytes_of_all(value);
     else if constexpr (IsOptional<T>::value) return 1 + (value ? bytes_of(*value) : 0);
     else
       return std::apply([](const auto &...fields) { return (size_t{0} + ... + bytes_of(fields)); }, fields_of(value));
   }
+  template <class T> static size_t lengths_before(size_t records) { return IsPlain<T>::value ? 0 : blocks_of(records); }
   template <class List> static size_t bytes_of_all(const List &list)
   {
     if constexpr (IsPlain<std::remove_cvref_t<decltype(*list.data())>>::value)
@@ -120,9 +166,12 @@ private:
     else if constexpr (std::is_same_v<T, std::string>)
       return copy(value.data(), value.size(), write(uint64_t{value.size()}, to));
     else if constexpr (IsArray<T>::value) return write_all(value, to);
-    else if constexpr (IsVector<T>::value || IsSpan<T>::value)
-      return write_all(value, write(uint64_t{value.size()}, to));
-    else if constexpr (IsOptional<T>::value) {
+    else if constexpr (IsVector<T>::value || IsSpan<T>::value) {
+      to = write(uint64_t{value.size()}, to);
+      for (size_t block = 0; block < lengths_before<typename T::value_type>(value.size()); ++block)
+        to = write(uint64_t{bytes_of_all(block_of(std::span(value), block))}, to);
+      return write_all(value, to);
+    } else if constexpr (IsOptional<T>::value) {
       to = write(value.has_value(), to);
       return value ? write(*value, to) : to;
     } else {
@@ -140,13 +189,15 @@ private:
 
   std::vector<std::byte> bytes_; /* what is past size_ is room */
   size_t size_ = 0;
+  RunParts run_parts_ = run_parts_in_order;
 };
 
 class ByteReader {
 public:
   /* where: what the bytes are, for messages; offset: the place of the first one in the whole. */
-  ByteReader(std::span<const std::byte> bytes, std::string where, size_t offset = 0)
-      : bytes_(bytes), where_(std::move(where)), offset_(offset)
+  ByteReader(std::span<const std::byte> bytes, std::string where, size_t offset = 0,
+             RunParts run_parts = run_parts_in_order)
+      : bytes_(bytes), where_(std::move(where)), offset_(offset), run_parts_(run_parts)
   {}
 
   [[noreturn]] void fail(const std::string &why) const
@@ -200,26 +251,42 @@ private:
     if (flag > 1) fail(fmt::format("a flag is {}; 0 or 1 is needed", flag));
     return flag == 1;
   }
-  /* Elements that are not plain take a byte at least, and are allocated as they are read. */
   template <class T> void get_list(std::vector<T> &values)
   {
     const auto count = get<uint64_t>();
-    constexpr size_t least = IsPlain<T>::value ? sizeof(T) : 1;
-    if (count > left() / least)
+    if (count > left() / least_bytes<T>())
       fail(fmt::format("a list of {} entries does not fit into the {} bytes left", count, left()));
     values.clear();
+    values.resize(static_cast<size_t>(count));
     if constexpr (IsPlain<T>::value) {
-      values.resize(static_cast<size_t>(count));
       const auto part = take(count * sizeof(T));
       if (count > 0) std::memcpy(values.data(), part.data(), part.size());
-    } else
-      for (uint64_t k = 0; k < count; ++k) get(values.emplace_back());
+    } else if (count > block_records) get_blocks(std::span(values));
+    else
+      for (T &value : values) get(value);
+  }
+  template <class T> void get_blocks(std::span<T> records)
+  {
+    std::vector<ByteReader> blocks(blocks_of(records.size()), *this);
+    const auto lengths = take(blocks.size() * sizeof(uint64_t));
+    for (size_t block = 0; block < blocks.size(); ++block) {
+      uint64_t bytes = 0;
+      std::memcpy(&bytes, lengths.data() + block * sizeof bytes, sizeof bytes);
+      blocks[block].offset_ = position();
+      blocks[block].at_ = 0;
+      blocks[block].bytes_ = take(bytes);
+    }
+    run_parts_(blocks.size(), PartFunction([&](size_t block) {
+                 for (T &record : block_of(records, block)) blocks[block].get(record);
+                 blocks[block].expect_end();
+               }));
   }
 
   std::span<const std::byte> bytes_;
   std::string where_;
   size_t offset_;
   size_t at_ = 0;
+  RunParts run_parts_;
 };
 
 } // namespace tandem

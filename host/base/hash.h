@@ -7,6 +7,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <vector>
+
+#include "host/base/parts.h"
 
 namespace tandem {
 
@@ -37,6 +40,19 @@ inline uint64_t hash_bytes(const void *data, size_t bytes, uint64_t seed = 0)
   uint64_t result = mix_bits(bytes + seed);
   for (uint64_t lane : lanes) result = mix_bits(result ^ lane);
   return result;
+}
+
+/* The hash of the hashes of blocks, which threads can share: of files, where one thread would take longest for it. */
+inline uint64_t hash_blocks(const void *data, size_t bytes, uint64_t seed, RunParts run_parts)
+{
+  constexpr size_t block_bytes = size_t{1} << 20;
+  std::vector<uint64_t> hashes((bytes + block_bytes - 1) / block_bytes);
+  run_parts(hashes.size(), PartFunction([&](size_t block) {
+              const size_t begin = block * block_bytes;
+              hashes[block] =
+                  hash_bytes(static_cast<const char *>(data) + begin, std::min(block_bytes, bytes - begin), seed);
+            }));
+  return hash_bytes(hashes.data(), hashes.size() * sizeof(uint64_t), seed + bytes);
 }
 
 } // namespace tandem

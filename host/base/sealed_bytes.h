@@ -4,7 +4,7 @@
  *   0   8 bytes  magic
  *   8   uint64   format
  *   16  uint64   bytes of the contents, which follow the header
- *   24  uint64   hash of the contents
+ *   24  uint64   hash of the contents (hash_blocks)
  */
 #pragma once
 
@@ -27,10 +27,11 @@ constexpr size_t seal_bytes = 32;
 
 /* Leaves room for the header; seal() fills it when all contents have been written after it. */
 inline void begin_sealed(ByteWriter &writer) { writer.extend(seal_bytes); }
-inline std::vector<std::byte> seal(ByteWriter &writer, const SealedKind &kind)
+inline std::vector<std::byte> seal(ByteWriter &writer, const SealedKind &kind, RunParts run_parts)
 {
   std::vector<std::byte> bytes = writer.take();
-  const uint64_t length = bytes.size() - seal_bytes, hash = hash_bytes(bytes.data() + seal_bytes, length);
+  const uint64_t length = bytes.size() - seal_bytes,
+                 hash = hash_blocks(bytes.data() + seal_bytes, length, 0, run_parts);
   std::memcpy(bytes.data(), kind.magic.data(), kind.magic.size());
   std::memcpy(bytes.data() + 8, &kind.format, sizeof kind.format);
   std::memcpy(bytes.data() + 16, &length, sizeof length);
@@ -40,7 +41,7 @@ inline std::vector<std::byte> seal(ByteWriter &writer, const SealedKind &kind)
 
 /* The contents. Throws InputError unless the bytes are what seal() returned for this kind. */
 inline std::span<const std::byte> unseal(std::span<const std::byte> bytes, const SealedKind &kind,
-                                         const std::string &where)
+                                         const std::string &where, RunParts run_parts)
 {
   const auto refuse = [&](const std::string &why) { throw InputError(fmt::format("{}: {}", where, why)); };
   const auto word = [&](size_t offset) {
@@ -59,7 +60,7 @@ inline std::span<const std::byte> unseal(std::span<const std::byte> bytes, const
     refuse(fmt::format("the {} should have {} bytes of contents and has {}; it is cut off or damaged", kind.what,
                        word(16), bytes.size() - seal_bytes));
   const auto contents = bytes.subspan(seal_bytes);
-  if (word(24) != hash_bytes(contents.data(), contents.size()))
+  if (word(24) != hash_blocks(contents.data(), contents.size(), 0, run_parts))
     refuse(fmt::format("the contents of the {} do not have the hash of its header; it is damaged", kind.what));
   return contents;
 }

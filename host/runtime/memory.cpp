@@ -10,6 +10,7 @@
 #include <tandem/round_to_float.h>
 
 #include "host/base/out_of_memory.h"
+#include "host/runtime/parts.h"
 
 namespace tandem {
 Memory::Memory() : entries_(all_buffers())
@@ -196,15 +197,42 @@ void Memory::upload(Buffer buffer, const void *from, size_t bytes, size_t offset
     else copy.valid = &copy == device;
 }
 
+namespace {
+
+/* One thread does not fill the memory bus of most machines. */
+void copy_in_parts(const void *from, void *to, size_t bytes)
+{
+  constexpr size_t part_bytes = size_t{1} << 20;
+  run_parts((bytes + part_bytes - 1) / part_bytes, PartFunction([&](size_t part) {
+              const size_t begin = part * part_bytes;
+              std::memcpy(static_cast<char *>(to) + begin, static_cast<const char *>(from) + begin,
+                          std::min(part_bytes, bytes - begin));
+            }));
+}
+
+} // namespace
+
 /* Reads directly from a device if the host's copy is stale, so that reading a count transfers only the count. */
 void Memory::download(Buffer buffer, void *to, size_t bytes, size_t offset)
 {
   if (bytes == 0) return;
   Entry &entry = entries_[index_of(buffer)];
-  copy_in(entry, host_storage());
+  if (entry.copies.empty()) copy_in(entry, host_storage()); /* zeros */
   for (Copy &copy : entry.copies)
-    if (copy.valid) return copy.storage->read(copy.handle, offset, to, bytes);
+    if (copy.valid && copy.storage == &host_storage())
+      return copy_in_parts(static_cast<const char *>(copy.handle) + offset, to, bytes);
+    else if (copy.valid) return copy.storage->read(copy.handle, offset, to, bytes);
 }
+
+namespace {
+
+void copy_within(Storage &storage, void *from, void *to, size_t bytes)
+{
+  if (&storage == &host_storage()) copy_in_parts(from, to, bytes);
+  else storage.copy(from, to, bytes);
+}
+
+} // namespace
 
 void Memory::make_room(Buffer buffer, Storage &storage, KeptBytes &kept)
 {
@@ -228,7 +256,7 @@ void Memory::keep(Buffer buffer, size_t bytes, KeptBytes &kept)
   for (const Copy &copy : entry.copies)
     if (copy.valid && (!source || source->storage != kept.storage_)) source = &copy;
   make_room(buffer, *source->storage, kept);
-  source->storage->copy(source->handle, kept.handle_, bytes);
+  copy_within(*source->storage, source->handle, kept.handle_, bytes);
   kept.bytes_ = bytes;
 }
 
@@ -238,7 +266,7 @@ void Memory::put_back(Buffer buffer, const KeptBytes &kept)
   Entry &entry = entries_[index_of(buffer)];
   Copy &target = copy_in(entry, *kept.storage_);
   wait_for_readers(entry, *kept.storage_);
-  kept.storage_->copy(kept.handle_, target.handle, kept.bytes_);
+  copy_within(*kept.storage_, kept.handle_, target.handle, kept.bytes_);
   for (Copy &copy : entry.copies) copy.valid = &copy == &target;
 }
 

@@ -7,6 +7,7 @@
 #include <tandem/version.h>
 
 #include "host/base/hash.h"
+#include "host/runtime/parts.h"
 #include "host/world/implementation.h"
 
 namespace tandem {
@@ -55,7 +56,7 @@ void CallLog::write_part()
 {
   const std::vector<std::byte> part = writer_.take();
   writer_ = {};
-  const uint64_t bytes = part.size(), hash = hash_bytes(part.data(), part.size(), parts_);
+  const uint64_t bytes = part.size(), hash = hash_blocks(part.data(), part.size(), parts_, run_parts);
   write(&bytes, sizeof bytes);
   write(&hash, sizeof hash);
   write(part.data(), part.size());

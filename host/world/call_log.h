@@ -1,7 +1,8 @@
 /* call_log.h - writes the calls of a program to a file while it runs; <tandem/recording.h> reads it.
  *
  *   8 bytes magic, uint64 format
- *   parts: uint64 bytes, uint64 hash (seeded with the number of the part), then the bytes, which begin with their kind
+ *   parts: uint64 bytes, uint64 hash (hash_blocks, seeded with the number of the part), then the bytes, which
+ *          begin with their kind
  *     header     version of the library
  *     snapshot   steps made before it, and the bytes of World::save
  *     calls      the calls before a step, and the step with its hashes; one part a step, so that the file can be read
@@ -26,7 +27,7 @@
 namespace tandem {
 
 constexpr std::array<char, 8> recording_magic{'T', 'A', 'N', 'D', 'E', 'M', 'R', '\n'};
-constexpr uint64_t recording_format = 1;
+constexpr uint64_t recording_format = 2;
 
 enum class RecordedPart : uint8_t { header, snapshot, calls, end };
 

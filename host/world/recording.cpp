@@ -7,6 +7,7 @@
 
 #include "host/runtime/interface/kernel_list.h"
 #include "host/runtime/memory.h"
+#include "host/runtime/parts.h"
 #include "host/world/call_log.h"
 #include "host/world/snapshot.h"
 
@@ -37,7 +38,7 @@ PartRead next_part(ByteReader &reader, uint64_t number)
   const auto bytes = reader.get<uint64_t>(), hash = reader.get<uint64_t>();
   const size_t offset = reader.position();
   const auto contents = reader.take(bytes);
-  if (hash_bytes(contents.data(), contents.size(), number) != hash)
+  if (hash_blocks(contents.data(), contents.size(), number, run_parts) != hash)
     throw InputError(fmt::format("{}: byte {}: part {} does not have the hash that it was written with; the file is "
                                  "damaged",
                                  reader.where(), offset, number));

@@ -7,6 +7,7 @@
 
 #include "host/runtime/interface/floating_point.h"
 #include "host/runtime/interface/module.h"
+#include "host/runtime/parts.h"
 #include "host/world/implementation.h"
 #include "host/world/snapshot_fields.h"
 #include "host/world/snapshot_scene.h"
@@ -320,7 +321,7 @@ void get_settings(ByteReader &reader, Settings &settings)
 
 SnapshotContents read_snapshot(std::span<const std::byte> bytes, const std::string &where)
 {
-  ByteReader reader(unseal(bytes, snapshot_kind, where), where, seal_bytes);
+  ByteReader reader(unseal(bytes, snapshot_kind, where, run_parts), where, seal_bytes, run_parts);
   SnapshotContents contents;
   reader.get(contents.modules);
   get_settings(reader, contents.settings);
@@ -391,7 +392,7 @@ void World::Implementation::put_buffers(ByteWriter &writer)
 std::vector<std::byte> World::Implementation::save(std::vector<std::byte> memory)
 {
   settle();
-  ByteWriter writer(std::move(memory));
+  ByteWriter writer(std::move(memory), run_parts);
   begin_sealed(writer);
   std::vector<std::string> modules;
   for (const Extension &extension : settings.extensions) modules.emplace_back(extension.module->name());
@@ -407,7 +408,7 @@ std::vector<std::byte> World::Implementation::save(std::vector<std::byte> memory
   for (const auto &[number, island] : sleepers.all()) writer.put(island);
   put_history(writer);
   put_buffers(writer);
-  return seal(writer, snapshot_kind);
+  return seal(writer, snapshot_kind, run_parts);
 }
 
 namespace {

@@ -23,7 +23,7 @@
 
 namespace tandem {
 
-constexpr SealedKind snapshot_kind{{'T', 'A', 'N', 'D', 'E', 'M', 'S', '\n'}, 1, "snapshot"};
+constexpr SealedKind snapshot_kind{{'T', 'A', 'N', 'D', 'E', 'M', 'S', '\n'}, 2, "snapshot"};
 
 /* A buffer's items in use. */
 struct SavedBuffer {

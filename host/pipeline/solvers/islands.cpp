@@ -14,15 +14,13 @@
 #include <span>
 #include <vector>
 
-#include <tbb/parallel_for.h>
-#include <tbb/partitioner.h>
 #include <tbb/task_arena.h>
 
 #include "host/base/arena.h"
 #include "host/pipeline/solvers/island_solver.h"
 #include "host/runtime/interface/floating_point.h"
 #include "host/runtime/memory.h"
-#include "minicl/thread_sanitizer.h"
+#include "host/runtime/parts.h"
 #include "minicl/worker_threads.h"
 
 #define TANDEM_REFERENCE
@@ -539,18 +537,7 @@ void SolveIslands::solve(uint32_t pass)
       islands_.outcomes[k] = solve_one(rows_, islands_, k, pass, memory);
   };
   const size_t tasks = std::min(memories_.size(), islands_.count());
-  if (tasks == 1) return solve_some(memories_[0]);
-  minicl::LaunchOrder order;
-  order.launch_begins();
-  tbb::parallel_for(
-      size_t{0}, tasks,
-      [&](size_t task) TANDEM_UNWATCHED {
-        order.items_begin();
-        solve_some(memories_[task]);
-        order.items_end();
-      },
-      tbb::simple_partitioner{});
-  order.launch_ends();
+  run_parts(tasks, PartFunction([&](size_t task) { solve_some(memories_[task]); }));
 }
 
 } // namespace

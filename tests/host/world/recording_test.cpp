@@ -277,7 +277,7 @@ void seal_again(Bytes &bytes)
     uint64_t length = 0;
     std::memcpy(&length, &bytes[at], sizeof length);
     if (length > bytes.size() - at - 16) return;
-    const uint64_t hash = hash_bytes(bytes.data() + at + 16, length, number);
+    const uint64_t hash = hash_blocks(bytes.data() + at + 16, length, number, run_parts_in_order);
     std::memcpy(&bytes[at + 8], &hash, sizeof hash);
     at += 16 + length;
   }
