@@ -1,7 +1,7 @@
 /* byte_stream.h - values as bytes and back, for the files that the library writes and reads: snapshots and recordings.
  *
  * Numbers are little-endian. A list or a text has its length before it, in 8 bytes. The fields of a record are those
- * that fields_of(record) returns, a tuple of references, so that one place names them for both directions
+ * with which visit_fields(record, visit) calls visit, so that one place names them for both directions
  * (host/world/snapshot_fields.h). A list of more records than a block holds is in blocks, whose lengths come first, so
  * that threads write and read them side by side:
  *
@@ -22,7 +22,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -58,11 +57,13 @@ template <class T> constexpr size_t least_bytes()
   if constexpr (std::is_same_v<T, bool> || IsOptional<T>::value) return 1;
   else if constexpr (std::is_enum_v<T> || IsPlain<T>::value) return sizeof(T);
   else if constexpr (std::is_same_v<T, std::string> || IsVector<T>::value || IsSpan<T>::value) return sizeof(uint64_t);
-  else if constexpr (IsArray<T>::value) return std::tuple_size_v<T> * least_bytes<typename T::value_type>();
-  else
-    return []<class... Fields>(const std::tuple<Fields...> *) {
-      return (size_t{0} + ... + least_bytes<std::remove_cvref_t<Fields>>());
-    }(static_cast<const decltype(fields_of(std::declval<T &>())) *>(nullptr));
+  else if constexpr (IsArray<T>::value) return std::size(T{}) * least_bytes<typename T::value_type>();
+  else {
+    constexpr auto sum = []<class... Fields>(const Fields &...) {
+      return std::integral_constant<size_t, (size_t{0} + ... + least_bytes<Fields>())>{};
+    };
+    return decltype(visit_fields(std::declval<T &>(), sum))::value;
+  }
 }
 
 constexpr size_t block_records = 4096; /* of a list; a part of the format */
@@ -140,8 +141,7 @@ private:
     else if constexpr (IsVector<T>::value || IsSpan<T>::value)
       return sizeof(uint64_t) * (1 + lengths_before<typename T::value_type>(value.size())) + bytes_of_all(value);
     else if constexpr (IsOptional<T>::value) return 1 + (value ? bytes_of(*value) : 0);
-    else
-      return std::apply([](const auto &...fields) { return (size_t{0} + ... + bytes_of(fields)); }, fields_of(value));
+    else return visit_fields(value, [](const auto &...fields) { return (size_t{0} + ... + bytes_of(fields)); });
   }
   template <class T> static size_t lengths_before(size_t records) { return IsPlain<T>::value ? 0 : blocks_of(records); }
   template <class List> static size_t bytes_of_all(const List &list)
@@ -175,7 +175,7 @@ private:
       to = write(value.has_value(), to);
       return value ? write(*value, to) : to;
     } else {
-      std::apply([&to](const auto &...fields) { ((to = write(fields, to)), ...); }, fields_of(value));
+      visit_fields(value, [&to](const auto &...fields) { ((to = write(fields, to)), ...); });
       return to;
     }
   }
@@ -236,7 +236,7 @@ public:
     else if constexpr (IsOptional<T>::value) {
       if (get_flag()) get(value.emplace());
       else value.reset();
-    } else std::apply([this](auto &...fields) { (this->get(fields), ...); }, fields_of(value));
+    } else visit_fields(value, [this](auto &...fields) { (this->get(fields), ...); });
   }
   /* Nothing may follow what was read. */
   void expect_end() const

@@ -63,10 +63,10 @@ struct StepHashes {
   std::vector<uint32_t> bodies; /* by index; none in most steps of large worlds */
 };
 
-template <Is<StepHashes> T> auto fields_of(T &record)
+template <Is<StepHashes> T, class Visit> auto visit_fields(T &record, const Visit &visit)
 {
   auto &[state, bodies] = record;
-  return std::tie(state, bodies);
+  return visit(state, bodies);
 }
 
 /* A hash of the state of each body, by its index. */

@@ -15,40 +15,40 @@
 
 namespace tandem {
 
-template <Is<BodySlots::Slot> T> auto fields_of(T &record)
+template <Is<BodySlots::Slot> T, class Visit> auto visit_fields(T &record, const Visit &visit)
 {
   auto &[generation] = record;
-  return std::tie(generation);
+  return visit(generation);
 }
 
-template <Is<ShapeSlots::Slot> T> auto fields_of(T &record)
+template <Is<ShapeSlots::Slot> T, class Visit> auto visit_fields(T &record, const Visit &visit)
 {
   auto &[generation, exists, body] = record;
-  return std::tie(generation, exists, body);
+  return visit(generation, exists, body);
 }
 
-template <Is<SleepingPair> T> auto fields_of(T &record)
+template <Is<SleepingPair> T, class Visit> auto visit_fields(T &record, const Visit &visit)
 {
   auto &[a, b, words] = record;
-  return std::tie(a, b, words);
+  return visit(a, b, words);
 }
 
-template <Is<SleepingIsland> T> auto fields_of(T &record)
+template <Is<SleepingIsland> T, class Visit> auto visit_fields(T &record, const Visit &visit)
 {
   auto &[bodies, pairs] = record;
-  return std::tie(bodies, pairs);
+  return visit(bodies, pairs);
 }
 
-template <Is<SleepEvent> T> auto fields_of(T &record)
+template <Is<SleepEvent> T, class Visit> auto visit_fields(T &record, const Visit &visit)
 {
   auto &[body, asleep] = record;
-  return std::tie(body, asleep);
+  return visit(body, asleep);
 }
 
-template <Is<BodySlots::Free> T> auto fields_of(T &record)
+template <Is<BodySlots::Free> T, class Visit> auto visit_fields(T &record, const Visit &visit)
 {
   auto &[slot, since] = record;
-  return std::tie(slot, since);
+  return visit(slot, since);
 }
 
 namespace {
@@ -216,10 +216,10 @@ struct HandlesOfBody {
   std::vector<ShapeId> handles;
 };
 
-template <Is<HandlesOfBody> T> auto fields_of(T &record)
+template <Is<HandlesOfBody> T, class Visit> auto visit_fields(T &record, const Visit &visit)
 {
   auto &[body, handles] = record;
-  return std::tie(body, handles);
+  return visit(body, handles);
 }
 
 void put_shapes(ByteWriter &writer, const ShapeSlots &shapes, const std::set<uint32_t> &made)

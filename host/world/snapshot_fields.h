@@ -1,4 +1,5 @@
-/* snapshot_fields.h - the fields of the records that snapshots and recordings hold, in the order of the files.
+/* snapshot_fields.h - the fields of the records that snapshots and recordings hold, in the order of the files: each
+ * function calls `visit` with all of them (host/base/byte_stream.h).
  *
  * Each function takes its record apart into as many names as it has fields, so that a field that is added to a record
  * and not named here does not compile. A change of these lists changes the format: snapshot_format of snapshot.h.
@@ -6,7 +7,6 @@
 #pragma once
 
 #include <concepts>
-#include <tuple>
 #include <type_traits>
 
 #include <tandem/bodies.h>
@@ -24,146 +24,146 @@ namespace tandem {
 template <class T, class Record>
 concept Is = std::same_as<std::remove_const_t<T>, Record>;
 
-template <Is<Material> T> auto fields_of(T &record)
+template <Is<Material> T, class Visit> auto visit_fields(T &record, const Visit &visit)
 {
   auto &[name, static_friction, dynamic_friction, restitution, friction_combine, restitution_combine, rolling_friction,
          spinning_friction] = record;
-  return std::tie(name, static_friction, dynamic_friction, restitution, friction_combine, restitution_combine,
-                  rolling_friction, spinning_friction);
+  return visit(name, static_friction, dynamic_friction, restitution, friction_combine, restitution_combine,
+               rolling_friction, spinning_friction);
 }
 
-template <Is<Axes> T> auto fields_of(T &record)
+template <Is<Axes> T, class Visit> auto visit_fields(T &record, const Visit &visit)
 {
   auto &[x, y, z] = record;
-  return std::tie(x, y, z);
+  return visit(x, y, z);
 }
 
-template <Is<Body> T> auto fields_of(T &record)
+template <Is<Body> T, class Visit> auto visit_fields(T &record, const Visit &visit)
 {
   auto &[name, type, trigger, shape, material, position, orientation, shape_position, shape_orientation,
          linear_velocity, angular_velocity, mass, inertia, infinite_inertia, gravity_factor, linear_damping,
          angular_damping, filter_group, filter_mask, continuous, linear_locks, angular_locks, max_linear_speed,
          max_angular_speed, user_data] = record;
-  return std::tie(name, type, trigger, shape, material, position, orientation, shape_position, shape_orientation,
-                  linear_velocity, angular_velocity, mass, inertia, infinite_inertia, gravity_factor, linear_damping,
-                  angular_damping, filter_group, filter_mask, continuous, linear_locks, angular_locks, max_linear_speed,
-                  max_angular_speed, user_data);
+  return visit(name, type, trigger, shape, material, position, orientation, shape_position, shape_orientation,
+               linear_velocity, angular_velocity, mass, inertia, infinite_inertia, gravity_factor, linear_damping,
+               angular_damping, filter_group, filter_mask, continuous, linear_locks, angular_locks, max_linear_speed,
+               max_angular_speed, user_data);
 }
 
 /* Extensions are functions of the program; snapshots name their modules. */
-template <Is<Settings> T> auto fields_of(T &record)
+template <Is<Settings> T, class Visit> auto visit_fields(T &record, const Visit &visit)
 {
   auto &[step, substeps, iterations, solver, broadphase, bounds, midphase, narrowphase, support, support_cells,
          batching, check, events, pair_events, sleeping, sleep_speed, sleep_time, moved_bodies, max_pairs, specialise,
          extensions, contact_hertz, contact_damping_ratio, push_speed, slop, slop_share, restitution_speed, hit_speed] =
       record;
-  return std::tie(step, substeps, iterations, solver, broadphase, bounds, midphase, narrowphase, support, support_cells,
-                  batching, check, events, pair_events, sleeping, sleep_speed, sleep_time, moved_bodies, max_pairs,
-                  specialise, contact_hertz, contact_damping_ratio, push_speed, slop, slop_share, restitution_speed,
-                  hit_speed);
+  return visit(step, substeps, iterations, solver, broadphase, bounds, midphase, narrowphase, support, support_cells,
+               batching, check, events, pair_events, sleeping, sleep_speed, sleep_time, moved_bodies, max_pairs,
+               specialise, contact_hertz, contact_damping_ratio, push_speed, slop, slop_share, restitution_speed,
+               hit_speed);
 }
 
-template <Is<HullPlane> T> auto fields_of(T &record)
+template <Is<HullPlane> T, class Visit> auto visit_fields(T &record, const Visit &visit)
 {
   auto &[normal, distance] = record;
-  return std::tie(normal, distance);
+  return visit(normal, distance);
 }
 
-template <Is<HullEdge> T> auto fields_of(T &record)
+template <Is<HullEdge> T, class Visit> auto visit_fields(T &record, const Visit &visit)
 {
   auto &[v0, v1, face_left, face_right] = record;
-  return std::tie(v0, v1, face_left, face_right);
+  return visit(v0, v1, face_left, face_right);
 }
 
-template <Is<ConvexHull> T> auto fields_of(T &record)
+template <Is<ConvexHull> T, class Visit> auto visit_fields(T &record, const Visit &visit)
 {
   auto &[vertices, faces, planes, edges, centroid, tolerance] = record;
-  return std::tie(vertices, faces, planes, edges, centroid, tolerance);
+  return visit(vertices, faces, planes, edges, centroid, tolerance);
 }
 
-template <Is<MeshEdge> T> auto fields_of(T &record)
+template <Is<MeshEdge> T, class Visit> auto visit_fields(T &record, const Visit &visit)
 {
   auto &[v0, v1, left, right, kind, cosine] = record;
-  return std::tie(v0, v1, left, right, kind, cosine);
+  return visit(v0, v1, left, right, kind, cosine);
 }
 
-template <Is<MeshFindings> T> auto fields_of(T &record)
+template <Is<MeshFindings> T, class Visit> auto visit_fields(T &record, const Visit &visit)
 {
   auto &[welded_vertices, unused_vertices, degenerate_triangles, duplicate_triangles, boundary_edges,
          non_manifold_edges, misoriented_edges] = record;
-  return std::tie(welded_vertices, unused_vertices, degenerate_triangles, duplicate_triangles, boundary_edges,
-                  non_manifold_edges, misoriented_edges);
+  return visit(welded_vertices, unused_vertices, degenerate_triangles, duplicate_triangles, boundary_edges,
+               non_manifold_edges, misoriented_edges);
 }
 
-template <Is<TriangleMesh> T> auto fields_of(T &record)
+template <Is<TriangleMesh> T, class Visit> auto visit_fields(T &record, const Visit &visit)
 {
   auto &[vertices, triangles, neighbours, triangle_edges, edges, findings, flat] = record;
-  return std::tie(vertices, triangles, neighbours, triangle_edges, edges, findings, flat);
+  return visit(vertices, triangles, neighbours, triangle_edges, edges, findings, flat);
 }
 
-template <Is<Quarantine> T> auto fields_of(T &record)
+template <Is<Quarantine> T, class Visit> auto visit_fields(T &record, const Visit &visit)
 {
   auto &[body, name, stage, step] = record;
-  return std::tie(body, name, stage, step);
+  return visit(body, name, stage, step);
 }
 
-template <Is<BatchFault> T> auto fields_of(T &record)
+template <Is<BatchFault> T, class Visit> auto visit_fields(T &record, const Visit &visit)
 {
   auto &[step, conflict, color, body, pair, other, constraints] = record;
-  return std::tie(step, conflict, color, body, pair, other, constraints);
+  return visit(step, conflict, color, body, pair, other, constraints);
 }
 
 /* Of calls: */
-template <Is<BodyId> T> auto fields_of(T &record)
+template <Is<BodyId> T, class Visit> auto visit_fields(T &record, const Visit &visit)
 {
   auto &[index, generation] = record;
-  return std::tie(index, generation);
+  return visit(index, generation);
 }
 
-template <Is<ShapeId> T> auto fields_of(T &record)
+template <Is<ShapeId> T, class Visit> auto visit_fields(T &record, const Visit &visit)
 {
   auto &[index, generation] = record;
-  return std::tie(index, generation);
+  return visit(index, generation);
 }
 
-template <Is<BodyProperties> T> auto fields_of(T &record)
+template <Is<BodyProperties> T, class Visit> auto visit_fields(T &record, const Visit &visit)
 {
   auto &[type, trigger, continuous, material, mass, inertia, infinite_inertia, gravity_factor, linear_damping,
          angular_damping, filter_group, filter_mask, linear_locks, angular_locks, max_linear_speed, max_angular_speed,
          user_data] = record;
-  return std::tie(type, trigger, continuous, material, mass, inertia, infinite_inertia, gravity_factor, linear_damping,
-                  angular_damping, filter_group, filter_mask, linear_locks, angular_locks, max_linear_speed,
-                  max_angular_speed, user_data);
+  return visit(type, trigger, continuous, material, mass, inertia, infinite_inertia, gravity_factor, linear_damping,
+               angular_damping, filter_group, filter_mask, linear_locks, angular_locks, max_linear_speed,
+               max_angular_speed, user_data);
 }
 
-template <Is<BodyState> T> auto fields_of(T &record)
+template <Is<BodyState> T, class Visit> auto visit_fields(T &record, const Visit &visit)
 {
   auto &[position, orientation, linear_velocity, angular_velocity] = record;
-  return std::tie(position, orientation, linear_velocity, angular_velocity);
+  return visit(position, orientation, linear_velocity, angular_velocity);
 }
 
-template <Is<Pose> T> auto fields_of(T &record)
+template <Is<Pose> T, class Visit> auto visit_fields(T &record, const Visit &visit)
 {
   auto &[position, orientation] = record;
-  return std::tie(position, orientation);
+  return visit(position, orientation);
 }
 
-template <Is<Velocity> T> auto fields_of(T &record)
+template <Is<Velocity> T, class Visit> auto visit_fields(T &record, const Visit &visit)
 {
   auto &[linear, angular] = record;
-  return std::tie(linear, angular);
+  return visit(linear, angular);
 }
 
-template <Is<Force> T> auto fields_of(T &record)
+template <Is<Force> T, class Visit> auto visit_fields(T &record, const Visit &visit)
 {
   auto &[force, torque, point] = record;
-  return std::tie(force, torque, point);
+  return visit(force, torque, point);
 }
 
-template <Is<Impulse> T> auto fields_of(T &record)
+template <Is<Impulse> T, class Visit> auto visit_fields(T &record, const Visit &visit)
 {
   auto &[impulse, angular_impulse, point] = record;
-  return std::tie(impulse, angular_impulse, point);
+  return visit(impulse, angular_impulse, point);
 }
 
 } // namespace tandem

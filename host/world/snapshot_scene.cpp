@@ -25,16 +25,16 @@ struct StoredChild {
   std::optional<uint32_t> material, filter_group, filter_mask;
 };
 
-template <Is<StoredShape> T> auto fields_of(T &record)
+template <Is<StoredShape> T, class Visit> auto visit_fields(T &record, const Visit &visit)
 {
   auto &[type, size, hull, mesh, compound] = record;
-  return std::tie(type, size, hull, mesh, compound);
+  return visit(type, size, hull, mesh, compound);
 }
 
-template <Is<StoredChild> T> auto fields_of(T &record)
+template <Is<StoredChild> T, class Visit> auto visit_fields(T &record, const Visit &visit)
 {
   auto &[shape, position, orientation, density, material, filter_group, filter_mask] = record;
-  return std::tie(shape, position, orientation, density, material, filter_group, filter_mask);
+  return visit(shape, position, orientation, density, material, filter_group, filter_mask);
 }
 
 /* --- writing ------------------------------------------------------------------------------------------------------ */

@@ -2,7 +2,6 @@
  * refuses blocks that do not hold what they say. */
 #include <cstring>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "host/base/byte_stream.h"
@@ -23,12 +22,10 @@ struct Parcel {
   bool operator==(const Parcel &) const = default;
 };
 
-template <class T>
-requires std::is_same_v<std::remove_const_t<T>, Parcel>
-auto fields_of(T &parcel)
+template <class T, class Visit> auto visit_fields(T &parcel, const Visit &visit)
 {
   auto &[name, weight, stamps] = parcel;
-  return std::tie(name, weight, stamps);
+  return visit(name, weight, stamps);
 }
 
 std::vector<Parcel> parcels(size_t count)

@@ -372,6 +372,11 @@ template <class T> T copied(const T &record)
   return copy;
 }
 
+template <class T> auto fields_of(const T &record)
+{
+  return visit_fields(record, [](const auto &...fields) { return std::tie(fields...); });
+}
+
 template <class T> bool all_equal(const T &one, const T &other) { return fields_of(one) == fields_of(other); }
 
 /* How many fields of the first are equal to those of the second. */
