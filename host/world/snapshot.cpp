@@ -329,7 +329,8 @@ SnapshotContents read_snapshot(std::span<const std::byte> bytes, const std::stri
   contents.special = get_special(reader, contents.scene);
   contents.slots = get_slots(reader, contents.special);
   get_shapes(reader, contents);
-  reader.get(contents.islands);
+  const auto islands = reader.get<uint64_t>(); /* one after the other: they are no list where they are written from */
+  for (uint64_t k = 0; k < islands; ++k) reader.get(contents.islands.emplace_back());
   check_islands(reader, contents);
   reader.get(contents.room);
   reader.get(contents.forces);

@@ -117,6 +117,24 @@ Bytes small_recording(bool ends = true)
 
 } // namespace
 
+TEST_CASE("a recording of calls with more bodies than a block of a list holds is made again")
+{
+  const Scratch scratch;
+  World world(yard(), {}, {"serial", {}});
+  world.start_recording(scratch.file());
+  std::vector<Body> balls;
+  for (int k = 0; k < 5000; ++k) balls.push_back(ball_at({2.0 * (k % 70), 3, 2.0 * (k / 70)}));
+  const std::vector<BodyId> ids = world.create_bodies(balls);
+  world.add_forces(ids, std::vector<Force>(ids.size(), {{1, 2, 0}, {0, 0, 0}, Point{0, 1, 0}}));
+  world.step();
+  world.destroy_bodies(ids);
+  world.step();
+  world.stop_recording();
+  const WorldRecording recording(bytes_of(scratch.file()), "F.tandem");
+  REQUIRE((recording.finished() && recording.steps() == 2));
+  CHECK_FALSE(verified(recording, "tbb:threads=3"));
+}
+
 TEST_CASE("a recording of every call is made again on any backend with the same hashes", "[sanitizer]")
 {
   const WorldRecording recording = recorded_day("tbb:threads=2,lanes=4");

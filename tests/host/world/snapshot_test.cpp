@@ -117,6 +117,31 @@ Bytes small_snapshot()
 
 } // namespace
 
+TEST_CASE("a snapshot of more sleeping islands than a block of a list holds is restored")
+{
+  Scene scene;
+  scene.gravity = {0, 0, 0};
+  scene.shapes = {sphere_shape(0.25f)};
+  scene.bodies.resize(block_records + 9);
+  for (size_t k = 0; k < scene.bodies.size(); ++k)
+    scene.bodies[k].position = {static_cast<double>(k % 100), static_cast<double>(k / 100), 0};
+  Settings settings;
+  settings.sleeping = true;
+  World original(scene, settings, {"serial", {}});
+  for (int k = 0; k < 40; ++k) original.step();
+  REQUIRE(original.statistics().asleep == scene.bodies.size());
+  const Bytes snapshot = original.save();
+  World world(snapshot, {"tbb:threads=2", {}});
+  CHECK(world.save() == snapshot);
+  for (World *one : {&original, &world}) {
+    one->destroy_bodies(one->body_ids());
+    one->create_bodies(scene.bodies);
+    one->step();
+  }
+  CHECK(world.state_hash() == original.state_hash());
+  CHECK(world.save() == original.save());
+}
+
 TEST_CASE("a snapshot of more bodies than a block of its list holds is the same from any number of threads",
           "[sanitizer]")
 {
