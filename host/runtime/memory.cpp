@@ -210,6 +210,12 @@ void copy_in_parts(const void *from, void *to, size_t bytes)
             }));
 }
 
+void copy_within(Storage &storage, void *from, void *to, size_t bytes)
+{
+  if (&storage == &host_storage()) copy_in_parts(from, to, bytes);
+  else storage.copy(from, to, bytes);
+}
+
 } // namespace
 
 /* Reads directly from a device if the host's copy is stale, so that reading a count transfers only the count. */
@@ -223,16 +229,6 @@ void Memory::download(Buffer buffer, void *to, size_t bytes, size_t offset)
       return copy_in_parts(static_cast<const char *>(copy.handle) + offset, to, bytes);
     else if (copy.valid) return copy.storage->read(copy.handle, offset, to, bytes);
 }
-
-namespace {
-
-void copy_within(Storage &storage, void *from, void *to, size_t bytes)
-{
-  if (&storage == &host_storage()) copy_in_parts(from, to, bytes);
-  else storage.copy(from, to, bytes);
-}
-
-} // namespace
 
 void Memory::make_room(Buffer buffer, Storage &storage, KeptBytes &kept)
 {
