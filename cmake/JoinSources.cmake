@@ -13,8 +13,8 @@ join_sources(json "io/json/.*|io/obj/.*")
 join_sources(catalog "catalog/.*")
 join_sources(written "io/glb/.*|io/contact_problem/.*|io/output_file")
 
-# The others are joined where a tree is built beside others (tools/run-tests.sh). The release tree compiles each by
-# itself, so a source that leans on its neighbours' includes fails there.
+# The others are joined where a tree is built beside others (tools/run-tests.sh). The presets for daily work compile
+# each by itself, so a source that leans on its neighbours' includes fails there, and only there.
 if(NOT TANDEM_JOIN_SOURCES)
   return()
 endif()

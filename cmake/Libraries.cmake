@@ -21,8 +21,8 @@ function(tandem_library)
     POSITION_INDEPENDENT_CODE ON)
   target_include_directories(${objects} PRIVATE ${PROJECT_SOURCE_DIR}/host/include ${PROJECT_SOURCE_DIR})
   target_link_libraries(${objects} PRIVATE TBB::tbb tandem_compiled_in ${library_USES})
-  # Where a tree is built beside others, its headers are parsed once; the release tree does without, so that no source
-  # lacks an include.
+  # Where a tree is built beside others, its headers are parsed once. The presets for daily work do without, so that
+  # they show a source that lacks an include.
   if(TANDEM_PRECOMPILE_HEADERS)
     target_precompile_headers(${objects} PRIVATE <algorithm> <array> <cmath> <functional> <map> <memory> <optional>
       <span> <string> <vector> <fmt/format.h>)
@@ -73,7 +73,7 @@ if(TANDEM_PORTABLE_KERNELS_ONLY)
 endif()
 set(TANDEM_KERNEL_OPTIONS "" CACHE STRING "Options of the compiler for the kernels of the CPU alone")
 set_source_files_properties(${MINICL_SOURCES} PROPERTIES SKIP_PRECOMPILE_HEADERS ON
-  COMPILE_OPTIONS "${TANDEM_KERNEL_OPTIONS}")
+  COMPILE_OPTIONS "-Wno-float-conversion;${TANDEM_KERNEL_OPTIONS}")
 set(io_sources ${HOST_SOURCES})
 list(FILTER io_sources INCLUDE REGEX "/host/(io|catalog)/")
 set(verify_sources ${HOST_SOURCES})
@@ -83,22 +83,20 @@ list(REMOVE_ITEM physics_sources ${io_sources} ${verify_sources})
 if(NOT TANDEM_BUILD_COMMAND) # what only the command writes
   list(FILTER io_sources EXCLUDE REGEX "/io/(glb|contact_problem)/")
 endif()
-# No double becomes a float unseen (host/include/tandem/round_to_float.h).
-if(NOT TANDEM_JOIN_SOURCES) # sources with options of their own are not joined
-  set(alone ${HOST_SOURCES})
-  list(REMOVE_ITEM alone ${io_sources})
-  set_source_files_properties(${alone} PROPERTIES COMPILE_OPTIONS -Wfloat-conversion)
-endif()
 
 tandem_library(NAME tandem SOURCES ${physics_sources} USES TBB::tbb OpenCL::OpenCL)
 tandem_library(NAME tandem_io SOURCES ${io_sources} LINKS tandem
   USES fmt::fmt TinyGLTF::TinyGLTF tinyobjloader::tinyobjloader $<BUILD_INTERFACE:nlohmann_json::nlohmann_json>)
-target_compile_options(tandem_io_objects PRIVATE -Wfloat-conversion)
 set(libraries tandem tandem_io)
 if(TANDEM_BUILD_COMMAND)
   tandem_library(NAME tandem_verify SOURCES ${verify_sources} LINKS tandem_io tandem USES fmt::fmt)
   list(APPEND libraries tandem_verify)
 endif()
+# No double becomes a float unseen (host/include/tandem/round_to_float.h); kernels in double are rounded where they
+# store.
+foreach(library IN LISTS libraries)
+  target_compile_options(${library}_objects PRIVATE -Wfloat-conversion)
+endforeach()
 if(TANDEM_PORTABLE_KERNELS_ONLY)
   target_compile_definitions(tandem_objects PRIVATE TANDEM_PORTABLE_KERNELS_ONLY)
 endif()

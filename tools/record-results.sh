@@ -10,6 +10,8 @@
 # files beyond 100 KB are named in not-kept.txt and not committed. docs/results.md says which part makes which table.
 set -u
 tandem=$1 out=$2 gpu=$3 what=${4:-all}
+parts="parity shapes broadphase narrowphase times widths solvers batchers report stability all"
+case " $parts " in *" $what "*) ;; *) echo "record-results.sh: '$what': use one of $parts" >&2; exit 2 ;; esac
 mkdir -p "$out"
 : > "$out/commands.txt"
 

@@ -199,15 +199,20 @@ void Memory::upload(Buffer buffer, const void *from, size_t bytes, size_t offset
 
 namespace {
 
-/* One thread does not fill the memory bus of most machines. */
-void copy_in_parts(const void *from, void *to, size_t bytes)
+/* One thread does not fill the memory bus of most machines. Where there is no memory for TBB's tasks, it copies all the
+ * same, so that this cannot fail. */
+void copy_in_parts(const void *from, void *to, size_t bytes) noexcept
 {
   constexpr size_t part_bytes = size_t{1} << 20;
-  run_parts((bytes + part_bytes - 1) / part_bytes, PartFunction([&](size_t part) {
-              const size_t begin = part * part_bytes;
-              std::memcpy(static_cast<char *>(to) + begin, static_cast<const char *>(from) + begin,
-                          std::min(part_bytes, bytes - begin));
-            }));
+  try {
+    run_parts((bytes + part_bytes - 1) / part_bytes, PartFunction([&](size_t part) {
+                const size_t begin = part * part_bytes;
+                std::memcpy(static_cast<char *>(to) + begin, static_cast<const char *>(from) + begin,
+                            std::min(part_bytes, bytes - begin));
+              }));
+  } catch (const std::exception &) {
+    std::memcpy(to, from, bytes);
+  }
 }
 
 void copy_within(Storage &storage, void *from, void *to, size_t bytes)

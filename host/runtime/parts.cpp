@@ -6,6 +6,8 @@
 
 #include <tbb/parallel_for.h>
 #include <tbb/partitioner.h>
+#include <tbb/task_arena.h>
+#include <tbb/task_group.h>
 
 #include "minicl/thread_sanitizer.h"
 #include "minicl/worker_threads.h"
@@ -36,25 +38,27 @@ private:
 
 } // namespace
 
+/* The caller may be a task of TBB's itself. If its group is cancelled, the parts run all the same, and while the caller
+ * waits for them, it takes no other task, which may want a lock that the caller holds. */
 void run_parts(size_t parts, PartFunction run)
 {
   if (parts <= 1) return run_parts_in_order(parts, run);
   minicl::settle_threads();
   FirstFailure failure;
   minicl::LaunchOrder order;
+  const auto run_one = [&](size_t part) TANDEM_UNWATCHED {
+    order.items_begin();
+    try {
+      run(part);
+    } catch (...) {
+      failure.note(part);
+    }
+    order.items_end();
+  };
   order.launch_begins();
-  tbb::parallel_for(
-      size_t{0}, parts,
-      [&](size_t part) TANDEM_UNWATCHED {
-        order.items_begin();
-        try {
-          run(part);
-        } catch (...) {
-          failure.note(part);
-        }
-        order.items_end();
-      },
-      tbb::simple_partitioner{});
+  tbb::task_group_context own_group(tbb::task_group_context::isolated);
+  tbb::this_task_arena::isolate(
+      [&] { tbb::parallel_for(size_t{0}, parts, run_one, tbb::simple_partitioner{}, own_group); });
   order.launch_ends();
   failure.rethrow();
 }

@@ -91,10 +91,10 @@ void check_order(const ByteReader &reader, const Scene &scene, const Specialisat
     if (body >= bodies || seen[body]) reader.fail("the order of the bodies does not hold each of them once");
     seen[body] = true;
   }
-  if (special.unbounded > special.large || special.large > bodies ||
+  if (special.unbounded > special.large || special.large > special.awake || special.awake > bodies ||
       special.large - special.unbounded > most_large_bodies)
-    reader.fail(fmt::format("{} half-spaces and {} bodies with the large ones, of {}", special.unbounded, special.large,
-                            bodies));
+    reader.fail(fmt::format("{} half-spaces, {} bodies with the large ones and {} with those awake, of {}",
+                            special.unbounded, special.large, special.awake, bodies));
   for (uint32_t index = 0; index < bodies; ++index)
     if ((scene.shapes[scene.bodies[special.order[index]].shape].type == ShapeType::half_space) !=
         (index < special.unbounded))
@@ -248,9 +248,20 @@ uint32_t check_starts(const ByteReader &reader, std::span<const std::byte> bytes
 {
   std::vector<uint32_t> starts(bytes.size() / sizeof(uint32_t));
   std::memcpy(starts.data(), bytes.data(), starts.size() * sizeof(uint32_t));
-  if (starts.front() != 0 || !std::is_sorted(starts.begin(), starts.end()) || starts.back() > most_pairs)
+  if (starts.empty() || starts.front() != 0 || !std::is_sorted(starts.begin(), starts.end()) ||
+      starts.back() > most_pairs)
     reader.fail("the starts of the cached pairs do not increase from 0");
   return starts.back();
+}
+
+/* The second bodies of the cached pairs. */
+void check_partners(const ByteReader &reader, std::span<const std::byte> bytes, size_t bodies)
+{
+  for (size_t at = 0; at + sizeof(uint32_t) <= bytes.size(); at += sizeof(uint32_t)) {
+    uint32_t body;
+    std::memcpy(&body, bytes.data() + at, sizeof body);
+    if (body >= bodies) reader.fail(fmt::format("a cached pair has body {}, of {} bodies", body, bodies));
+  }
 }
 
 size_t item_bytes(Buffer buffer) { return row_of(buffer).per_item * size_of(row_of(buffer).element); }
@@ -295,6 +306,7 @@ void get_buffers(ByteReader &reader, SnapshotContents &contents)
     seen[index_of(saved.buffer)] = true;
     if (saved.buffer == Buffer::cached_start && !saved.bytes.empty())
       contents.pairs = check_starts(reader, saved.bytes);
+    if (saved.buffer == Buffer::cached_b) check_partners(reader, saved.bytes, contents.scene.bodies.size());
   }
   check_sizes(reader, contents);
 }

@@ -2,7 +2,7 @@
  * function calls `visit` with all of them (host/base/byte_stream.h).
  *
  * Each function takes its record apart into as many names as it has fields, so that a field that is added to a record
- * and not named here does not compile. A change of these lists changes the format: snapshot_format of snapshot.h.
+ * and not named here does not compile. A change of these lists changes the format: the format of snapshot_kind.
  */
 #pragma once
 

@@ -125,19 +125,21 @@ SHARED uint cells_along(real length, real cell)
   return cells < 1 ? 1u : (uint)cells;
 }
 
-/* The grid with the smallest cells, none below `size`, that fits the table: cells grow by a quarter until it does. */
+/* The grid with the smallest cells, none below `size`, that fits the table: cells grow by a quarter until it does. If
+ * none fits, because a body is not finite, one cell holds all. */
 SHARED void write_grid_layout(extent whole, real size, GLOBAL float4 *grid, GLOBAL uint *counts)
 {
   vec3 length = subtract(whole.upper, whole.lower);
   real cell = maximum(size, R(1e-6));
-  uint nx = 1u, ny = 1u, nz = 1u;
-  for (int tries = 0; tries < 400; ++tries) {
+  uint nx = 1u, ny = 1u, nz = 1u, fits = 0u;
+  for (int tries = 0; tries < 400 && !fits; ++tries) {
     nx = cells_along(length.x, cell);
     ny = cells_along(length.y, cell);
     nz = cells_along(length.z, cell);
-    if ((real)nx * (real)ny * (real)nz <= (real)counts[CAPACITY_CELLS]) break;
-    cell = cell * R(1.25);
+    fits = (real)nx * (real)ny * (real)nz <= (real)counts[CAPACITY_CELLS] ? 1u : 0u;
+    if (!fits) cell = cell * R(1.25);
   }
+  if (!fits) nx = ny = nz = 1u;
   store_float4(grid, 0u, extend(whole.lower, R(1.0) / cell));
   counts[COUNT_GRID_X] = nx;
   counts[COUNT_GRID_Y] = ny;

@@ -7,7 +7,7 @@
  *   shared/ cl/ minicl/            calls of banned functions, float atomics, fused and approximate intrinsics
  *   host/                          functions of the C library whose last bit differs between machines, where results
  *                                  depend on it, and roundings to float that a compiler may leave out
- *   these, host/, tools/, CMake    compiler and OpenCL options that relax arithmetic, also within strings
+ *   these, tools/, tests/, CMake   compiler and OpenCL options that relax arithmetic, also within strings
  *
  * Usage: banned_operations ROOT              lists file:line: operation; exit status 1 if there is any
  *        banned_operations --self-test DIR   plants each operation in a tree under DIR and must find every one
@@ -35,7 +35,8 @@ struct Hit {
 
 /* Functions that are not correctly rounded everywhere, or that treat NaN, signed zero or denormals differently. */
 const std::vector<std::string> banned_functions = {
-    "fma",    "mad",    "mad24",  "mad_hi",    "fmin",      "fmax",        "min",           "max",
+    "fma",    "mad",    "mad24",  "mad_hi",    "mul24",     "mul_hi",      "select",        "bitselect",
+    "fmin",   "fmax",   "min",    "max",       "rint",      "round",       "trunc",         "ceil",
     "minmag", "maxmag", "clamp",  "mix",       "step",      "smoothstep",  "degrees",       "radians",
     "dot",    "cross",  "length", "distance",  "normalize", "fast_length", "fast_distance", "fast_normalize",
     "sin",    "cos",    "tan",    "sincos",    "sinpi",     "cospi",       "tanpi",         "asin",
@@ -85,6 +86,8 @@ const std::vector<std::string> banned_options = {"-cl-fast-relaxed-math",
                                                  "-ffinite-math-only",
                                                  "-ffp-contract=fast",
                                                  "-ffp-contract=on",
+                                                 "-fno-signed-zeros",
+                                                 "-mrecip",
                                                  "FP_CONTRACT ON"};
 
 /* platform.h gives the correctly rounded square root its name, minicl/ gives it to lanes; the dispatcher counts
@@ -196,8 +199,9 @@ void find_host_functions(const std::string &file, const std::string &text, std::
 
 void find_options(const std::string &file, const std::string &text, std::vector<Hit> &hits)
 {
-  const bool cmake = file.ends_with(".cmake") || file.ends_with("CMakeLists.txt") || file.ends_with(".json");
-  const std::string code = blanked(text, cmake ? Comments::hash : Comments::c_style, false);
+  static const std::vector<std::string> endings = {".cmake", ".cmake.in", "CMakeLists.txt", ".json", ".sh"};
+  const bool hash = std::any_of(endings.begin(), endings.end(), [&](const auto &end) { return file.ends_with(end); });
+  const std::string code = blanked(text, hash ? Comments::hash : Comments::c_style, false);
   for (const std::string &option : banned_options) {
     for (size_t at = code.find(option); at != std::string::npos; at = code.find(option, at + 1)) {
       hits.push_back({file, line_of(code, at), option});
@@ -214,8 +218,8 @@ std::string read(const fs::path &path)
 
 bool is_source(const fs::path &path)
 {
-  static const std::vector<std::string> endings = {".h",   ".c",     ".cpp", ".cl",  ".def",
-                                                   ".inc", ".cmake", ".txt", ".json"};
+  static const std::vector<std::string> endings = {".h",     ".c",   ".cpp",  ".cl", ".def", ".inc",
+                                                   ".cmake", ".txt", ".json", ".in", ".sh"};
   return std::find(endings.begin(), endings.end(), path.extension().string()) != endings.end();
 }
 
@@ -226,10 +230,10 @@ std::vector<Hit> scan(const fs::path &root, int &files)
     const std::string name = fs::relative(path, root).generic_string(), text = read(path);
     if (functions) find_functions(name, text, hits);
     if (name.starts_with("host/")) find_host_functions(name, text, hits);
-    find_options(name, text, hits);
+    if (name != "tests/checks/banned_operations.cpp") find_options(name, text, hits);
     ++files;
   };
-  for (const char *folder : {"shared", "cl", "minicl", "host", "tools", "cmake"}) {
+  for (const char *folder : {"shared", "cl", "minicl", "host", "tools", "tests", "cmake"}) {
     if (!fs::exists(root / folder)) continue;
     const bool functions =
         folder == std::string("shared") || folder == std::string("cl") || folder == std::string("minicl");
@@ -303,8 +307,8 @@ void test_options(const fs::path &root)
   for (const std::string &option : banned_options) {
     expect(scan_text(root, "host/planted.cpp", "\nauto flags = \"-I. " + option + "\";"),
            {{"host/planted.cpp", 2, option}}, option);
-    expect(scan_text(root, "CMakeLists.txt", "add_compile_options(" + option + ")"), {{"CMakeLists.txt", 1, option}},
-           option);
+    for (const std::string file : {"CMakeLists.txt", "cmake/module/planted.cmake.in", "tests/docs/planted.sh"})
+      expect(scan_text(root, file, "add_compile_options(" + option + ")"), {{file, 1, option}}, option);
   }
 }
 

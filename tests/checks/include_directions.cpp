@@ -97,17 +97,36 @@ std::optional<Row> row_of(const std::vector<Row> &table, const std::string &file
   return best;
 }
 
-/* Only the project's own files are read: public headers are included as <tandem/...>, all others from the root. */
-std::optional<std::string> included_by(const std::string &line)
+/* Public headers are included as <tandem/...>, all others of the project from the root. */
+std::optional<std::string> own_file(const std::string &name)
 {
-  static const std::regex include("^\\s*#\\s*include\\s*[<\"]([^>\"]+)[>\"].*");
-  std::smatch match;
-  if (!std::regex_match(line, match, include)) return {};
-  const std::string name = match[1];
   if (name.starts_with("tandem/")) return "host/include/" + name;
   for (const char *folder : {"shared/", "cl/", "minicl/", "host/", "tools/", "tests/"})
     if (name.starts_with(folder)) return name;
   return {};
+}
+
+/* What is included by the name of a list is read where that name is defined. */
+void find_fault(const std::vector<Row> &table, const Row &own, const std::string &line, Fault fault,
+                std::vector<Fault> &faults)
+{
+  static const std::string lists = "(BUFFER_LIST|KERNEL_LIST|KERNEL_HEADERS)";
+  static const std::regex comment("/[*].*?[*]/"), include("\\s*#\\s*(include\\b|define\\s+" + lists + "\\b)\\s*(.*)"),
+      name("[<\"]([^>\"]+)[>\"].*"), list(lists + "\\s*");
+  const auto refuse = [&](const std::string &what) { faults.push_back({fault.file, fault.line, what}); };
+  const std::string code = std::regex_replace(line, comment, " ");
+  std::smatch included, match;
+  if (!std::regex_match(code, included, include)) return;
+  const std::string rest = included[3];
+  if (std::regex_match(rest, list)) return;
+  if (!std::regex_match(rest, match, name)) return refuse("an include that this check does not read");
+  if (match[1].str().find("./") != std::string::npos) return refuse(match[1].str() + " is not named from the root");
+  const std::optional<std::string> file = own_file(match[1]);
+  if (!file) return;
+  const std::optional<Row> other = row_of(table, *file);
+  if (!other) refuse(*file + " stands in a folder without a row");
+  else if (other->folder != own.folder && !own.may_include.contains(other->folder))
+    refuse(own.folder + " may not include " + *file);
 }
 
 void find_faults(const std::vector<Row> &table, const fs::path &root, const std::string &file,
@@ -117,14 +136,7 @@ void find_faults(const std::vector<Row> &table, const fs::path &root, const std:
   if (!own) return faults.push_back({file, 1, "stands in a folder without a row"});
   std::ifstream in(root / file);
   std::string line;
-  for (int number = 1; std::getline(in, line); ++number) {
-    const std::optional<std::string> name = included_by(line);
-    if (!name) continue;
-    const std::optional<Row> other = row_of(table, *name);
-    if (!other) faults.push_back({file, number, *name + " stands in a folder without a row"});
-    else if (other->folder != own->folder && !own->may_include.contains(other->folder))
-      faults.push_back({file, number, own->folder + " may not include " + *name});
-  }
+  for (int number = 1; std::getline(in, line); ++number) find_fault(table, *own, line, {file, number, {}}, faults);
 }
 
 std::vector<Fault> faults_under(const fs::path &root, int &files)
@@ -199,6 +211,11 @@ int self_test(const fs::path &root)
   expect(faults_with(root, "host/world/a.cpp", "#include \"host/new/b.h\"\n").size() == 1,
          "an include of a folder without a row");
   expect(faults_with(root, "host/new/b.h", "").size() == 1, "a folder without a row");
+  for (const char *spelling : {"#include \"../host/world/world.h\"", "#include /* here */ \"host/world/world.h\"",
+                               "#/* here */include <tandem/../../world/world.h>", "#include HEADER",
+                               "#define KERNEL_LIST \"host/world/world.def\""})
+    expect(faults_with(root, "minicl/a.cpp", spelling + std::string("\n")).size() == 1, spelling);
+  expect(faults_with(root, "minicl/a.cpp", "#include KERNEL_LIST\n").empty(), "a list by its name");
   expect(faults_with(root, "host/world/a.cpp", "#include \"minicl/b.h\"\n#include \"shared/b.h\"\n").empty(),
          "all above");
   plant(root / "CONTRIBUTING.md", table_head + "\n|---|---|---|\n| `a` | x | `b` |\n| `b` | x | `a` |\n");

@@ -23,6 +23,13 @@ SHARED void probe_see_item(GLOBAL const float4 *query_hit, GLOBAL const uint *qu
   store_velocity(body_velocity, i, m);
 }
 
+/* A pair has no contact where a ray of one of its bodies hits nothing. */
+SHARED void probe_see_pairs_item(read_pairs pairs, GLOBAL const uint *query_hit_body, GLOBAL uint *manifold_count,
+                                 uint i)
+{
+  if (query_hit_body[pairs.a[i]] == INDEX_NONE || query_hit_body[pairs.b[i]] == INDEX_NONE) manifold_count[i] = 0u;
+}
+
 /* How many steps each body has seen. */
 SHARED void probe_count_item(GLOBAL const uint *previous_probe_age, GLOBAL uint *probe_age, uint i)
 {

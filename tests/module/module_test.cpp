@@ -189,7 +189,7 @@ TEST_CASE("module: a kernel over more items than there are hits is refused, also
   std::vector<Ray> rays(9);
   for (Ray &ray : rays) ray.direction = {0, -9, 0};
   world.cast_rays_on_device(std::span(rays).first(8));
-  CHECK_THAT(refusal(), Contains("has the hits of 8 queries, and the kernel is for up to 9 items"));
+  CHECK_THAT(refusal(), Contains("has the hits of 8 queries, and the kernel may read those of 9"));
   world.cast_rays_on_device(rays);
   world.run(probe::kernel::probe_see());
   world.cast_rays_on_device({});
@@ -197,6 +197,21 @@ TEST_CASE("module: a kernel over more items than there are hits is refused, also
   world.cast_rays_on_device(rays);
   world.cast_shapes_on_device(sphere_shape(0.1f), {}, {});
   CHECK_THAT(refusal(), Contains(fills));
+}
+
+/* A world has room for more bodies and pairs than it has, and no program knows for how many. */
+TEST_CASE("module: a kernel over pairs reads the hits of their bodies, where each body has one")
+{
+  World world(balls(9), with(pushing(0)), {"serial", {}});
+  world.create_body(balls(1).bodies[0]);
+  std::vector<Ray> rays(10);
+  for (Ray &ray : rays) ray.direction = {0, -9, 0};
+  world.cast_rays_on_device(std::span(rays).first(9));
+  CHECK_THAT(message_of([&] { world.run(probe::kernel::probe_see_pairs()); }),
+             Contains("has the hits of 9 queries, and the kernel may read those of 10"));
+  world.cast_rays_on_device(rays);
+  world.run(probe::kernel::probe_see_pairs());
+  world.run(probe::kernel::probe_see());
 }
 
 TEST_CASE("module: contacts that a kernel drops hold nothing")

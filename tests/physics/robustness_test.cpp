@@ -58,6 +58,8 @@ TEST_CASE("a body that is not finite is named and quarantined, and the rest go o
   SECTION("infinite position") { poison.position[0] = -infinity; }
   SECTION("NaN orientation") { poison.orientation[3] = nan; }
   SECTION("infinite velocity") { poison.linear_velocity[2] = infinity; }
+  SECTION("positions without bounds that fit a grid") { poison.position = {0, 1.8e38f, nan}; }
+  SECTION("velocities without such bounds") { poison.linear_velocity = {0, infinity, nan}; }
   SECTION("NaN spin") { poison.angular_velocity[0] = nan; }
   CHECK(hash_after_poisoning("serial", poison) == hash_after_poisoning("tbb", poison));
 }

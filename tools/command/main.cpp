@@ -177,11 +177,14 @@ int parse_and_execute(int count, char **arguments)
   CLI::App parser("Rigid body physics whose every stage is written once and runs on CPU and GPU with the same bits.",
                   "tandem");
   parser.set_version_flag("--version", std::string("tandem ") + version());
-  parser.footer("SCENE is a file (.json, .gltf, .glb) or name:key=value,... - `tandem scenes` lists the names.\n"
-                "Exit status: 0 fine; 1 the check failed, or the machine did not suffice: memory, threads, the room "
-                "that --max-pairs allows, a device;\n"
-                "2 bad use or input, or an output that cannot be written.");
+  const std::string status =
+      "Exit status: 0 fine; 1 the check failed, or the machine did not suffice: memory, threads, the room that "
+      "--max-pairs allows, a device;\n"
+      "2 bad use or input, or an output that cannot be written.";
+  parser.footer(status); /* of commands without their own */
   const std::vector<Command> commands = add_commands(parser);
+  parser.footer("SCENE is a file (.json, .gltf, .glb) or name:key=value,... - `tandem scenes` lists the names.\n" +
+                status);
   try {
     parser.parse(count, arguments);
   } catch (const CLI::Success &asked) { /* --help, --version */

@@ -59,7 +59,10 @@ SceneOptions::SceneOptions(CLI::App &parser, bool one_backend)
   const auto option = [&](const char *name, std::string &value, const std::string &what, const char *type) {
     parser.add_option(name, value, what)->type_name(type)->capture_default_str();
   };
-  parser.add_option("SCENE", scene_, "a file (.json, .gltf, .glb) or name:key=value,...")->required()->type_name("");
+  const std::string recording = one_backend ? "" : ", a recording (.tandem)"; /* which `tandem replay` runs on one */
+  parser.add_option("SCENE", scene_, "a file (.json, .gltf, .glb)" + recording + " or name:key=value,...")
+      ->required()
+      ->type_name("");
   if (one_backend) option("--on", on_, "backend: serial, tbb[:threads=N,lanes=N], cl, cl:P.D, cl:PART-OF-A-NAME", "B");
   option("--place", place_, "run a stage or a kernel elsewhere: narrowphase=cl,solve=tbb", "STAGE=B,...");
   option("--steps", steps_, "how many steps", "N");

@@ -80,6 +80,9 @@ void check_files(const RunOptions &options, DistinctFiles &files)
 {
   const auto [width, height] = size_of_image(options.image_size);
   if (!options.camera.empty()) camera_from(options.camera, width, height);
+  if (!options.image.empty() && !options.image.ends_with(".png"))
+    throw InputError(
+        fmt::format("--image '{}': a picture is written as .png; name the file so", printable(options.image)));
   files.writes("--image", options.image);
   files.writes("--save", options.save);
   files.writes("--trace", options.trace);

@@ -6,7 +6,9 @@
  *
  * Several worlds may be used in several threads at once. Of one world, calls that read it may be made beside each
  * other: those that return bodies, properties, handles, events, answers of queries, statistics, hashes, contents of
- * buffers or a snapshot. A call that changes it may be made beside no other call to it.
+ * buffers or a snapshot. A call that changes it may be made beside no other call to it. Tasks of TBB's may make calls,
+ * too. Snapshots and copies of more than a MiB take threads of TBB's on every backend, as many as tbb::global_control
+ * allows.
  *
  * A step is applied completely or not at all: overflow grows the buffers and runs the step again, and a body that stops
  * being finite is quarantined and reported.

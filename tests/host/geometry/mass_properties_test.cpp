@@ -183,7 +183,7 @@ TEST_CASE("mass: a turned and moved mesh has the turned tensor and the moved cen
   }
 }
 
-TEST_CASE("mass: halves of a box, put together, are the box; lumps follow the parallel axes")
+TEST_CASE("mass: halves of a box, put together, are the box, and lumps follow the parallel axes")
 {
   const std::array<double, 4> none{0, 0, 0, 1};
   const MassProperties halves[] = {placed(box_mass({1, 2, 1.5}), none, {7, 8, 8}),
@@ -226,7 +226,7 @@ TEST_CASE("principal axes: the tensor is put together again, moments obey the tr
   }
 }
 
-TEST_CASE("principal axes: a small turn is found again; axes already principal stay, whatever the order of moments")
+TEST_CASE("principal axes: a small turn is found again, and axes already principal stay, whatever the order of moments")
 {
   const Eigen::Quaterniond small(Eigen::AngleAxisd(0.3, Eigen::Vector3d(1, 2, 2).normalized()));
   const PrincipalAxes axes = principal_axes(placed(box_mass({1, 3, 2}), array_of(small), {}).inertia);

@@ -140,7 +140,7 @@ TEST_CASE("triangle mesh: repeated triangles count once, opposite ones stay")
   for (const MeshEdge &edge : two_sided.edges) CHECK(edge.cosine == Approx(-1));
 }
 
-TEST_CASE("triangle mesh: triangles without area are left out; those that closed a gap leave the mesh closed")
+TEST_CASE("triangle mesh: triangles without area are left out, and those that closed a gap leave the mesh closed")
 {
   std::vector<Vec3> vertices = box_corners(1, 1, 1);
   vertices.push_back({0, -1, -1}); /* in the middle of the edge 0-1 */

@@ -106,7 +106,8 @@ TEST_CASE("metrics: residuals of one contact vanish where it is solved, and nowh
   CHECK(fischer_burmeister_of(3, 4) == Approx(2));
 }
 
-TEST_CASE("metrics: a ball at rest solves its problem; a velocity that does not belong shows by its size", "[metrics]")
+TEST_CASE("metrics: a ball at rest solves its problem, and a velocity that does not belong shows by its size",
+          "[metrics]")
 {
   const auto kept = resting_ball();
   World &world = *kept;

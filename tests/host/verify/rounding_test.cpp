@@ -84,7 +84,7 @@ TEST_CASE("rounding: bounds are a few ulps off, and something is", "[rounding]")
 }
 
 TEST_CASE(
-    "rounding: far from the origin bounds lose what floats are coarser there; positions, offsets and velocities do not",
+    "rounding: far from the origin bounds lose what floats are coarser there, positions and offsets not",
     "[rounding]")
 {
   const RoundingTable near = table_of(0), far = table_of(20000);

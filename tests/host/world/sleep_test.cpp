@@ -154,7 +154,7 @@ TEST_CASE("an impulse wakes the island of its body alone, and acts as on a body 
   for (const SleepEvent &event : world.sleep_events()) CHECK_FALSE(event.asleep);
 }
 
-TEST_CASE("forces, velocities and poses that are set wake; reading does not", "[sanitizer]")
+TEST_CASE("forces, velocities and poses that are set wake, and reading does not", "[sanitizer]")
 {
   World world(floor_with_boxes(columns(4)), sleepy(), {"serial", {}});
   wait_for_sleep(world, 12);

@@ -5,6 +5,8 @@
 #include <functional>
 #include <memory>
 
+#include <fmt/format.h>
+
 #include <tandem/load_scene.h>
 #include <tandem/world.h>
 
@@ -380,6 +382,92 @@ TEST_CASE("no cut of a snapshot that was sealed again makes the reader fail othe
     CAPTURE(length);
     const Bytes bytes = sealed({part.begin(), part.end()});
     REQUIRE_THROWS_AS(read_snapshot(bytes, "snapshot"), InputError);
+  }
+}
+
+namespace {
+
+/* What world.save() gave, with other words in place of those at a byte, and the hash of that. */
+Bytes forged(Bytes bytes, size_t at, uint32_t word, size_t words = 1)
+{
+  for (size_t k = 0; k < words; ++k) std::memcpy(&bytes[at + k * sizeof word], &word, sizeof word);
+  return sealed(std::move(bytes));
+}
+
+/* Where the contents of a buffer begin: behind its name, the size of its items and its bytes, whose number this is. */
+size_t contents_of(const Bytes &bytes, const std::string &name, uint64_t &length)
+{
+  const std::string_view text(reinterpret_cast<const char *>(bytes.data()), bytes.size());
+  const size_t at = text.rfind(name);
+  REQUIRE(at != text.npos);
+  std::memcpy(&length, &bytes[at + name.size() + sizeof(uint64_t)], sizeof length);
+  return at + name.size() + 2 * sizeof(uint64_t);
+}
+
+/* Where the number of large bodies stands: behind the order of the bodies and the number of half-spaces. */
+size_t place_of_large(const Bytes &bytes)
+{
+  ByteReader reader(std::span<const std::byte>(bytes).subspan(seal_bytes), "snapshot", seal_bytes);
+  reader.get<std::vector<std::string>>();
+  Settings settings;
+  reader.get(settings);
+  get_scene(reader);
+  reader.get<std::vector<std::string>>();
+  reader.get<std::vector<uint32_t>>();
+  reader.get<uint32_t>();
+  return reader.position();
+}
+
+Bytes sleeping_snapshot()
+{
+  Settings settings;
+  settings.sleeping = true;
+  World world(load_scene("box-grid:nx=3,ny=2,nz=3"), settings, {"serial", {}});
+  for (int k = 0; k < 400 && world.statistics().asleep < 18; ++k) world.step();
+  REQUIRE(world.statistics().asleep == 18);
+  return world.save();
+}
+
+} // namespace
+
+TEST_CASE("numbers of a snapshot that kernels index with are checked, whoever sealed it", "[address]")
+{
+  const auto message_of = [](const Bytes &bytes) {
+    try {
+      World world(bytes, {"serial", {}});
+      world.step();
+    } catch (const InputError &error) {
+      return std::string(error.what());
+    }
+    return std::string("none");
+  };
+  const Bytes touching = small_snapshot(), asleep = sleeping_snapshot();
+  uint64_t length;
+  const size_t partners = contents_of(touching, "cached_b", length);
+  REQUIRE(length >= 2 * sizeof(uint32_t));
+  for (const uint32_t body : {5u, 1000u, 0x7fffffffu, 0xffffffffu})
+    CHECK_THAT(message_of(forged(touching, partners, body, length / sizeof(uint32_t))),
+               ContainsSubstring(fmt::format("a cached pair has body {}, of 5 bodies", body)));
+  const size_t large = place_of_large(asleep);
+  uint32_t bodies_with_large;
+  std::memcpy(&bodies_with_large, &asleep[large], sizeof bodies_with_large);
+  REQUIRE(bodies_with_large == 1);
+  CHECK(message_of(forged(asleep, large, 1)) == "none");
+  for (const uint32_t count : {2u, 5u, 19u, 20u})
+    CHECK_THAT(message_of(forged(asleep, large, count)), ContainsSubstring("bodies with the large ones"));
+}
+
+TEST_CASE("a list of starts that is shorter than one number is refused", "[address]")
+{
+  const Bytes snapshot = small_snapshot();
+  uint64_t length;
+  const size_t at = contents_of(snapshot, "cached_start", length);
+  for (const uint64_t shorter : {1, 2, 3}) {
+    Bytes bytes = snapshot;
+    std::memcpy(&bytes[at - sizeof shorter], &shorter, sizeof shorter);
+    const auto begin = bytes.begin() + static_cast<ptrdiff_t>(at);
+    bytes.erase(begin + static_cast<ptrdiff_t>(shorter), begin + static_cast<ptrdiff_t>(length));
+    CHECK_THROWS_WITH(read_snapshot(sealed(bytes), "snapshot"), ContainsSubstring("the starts of the cached pairs"));
   }
 }
 

@@ -74,8 +74,11 @@ TEST_CASE("command: scene files that cannot be read", "[command]")
 
 TEST_CASE("command: files that cannot be written are refused before the run", "[command]")
 {
-  for (const char *option : {"--json", "--save", "--trace", "--events", "--image"})
+  for (const char *option : {"--json", "--save", "--trace", "--events"})
     check_refused("run " + tiny + " --steps 1000000000 " + option + " /nonexistent/file.glb", "/nonexistent/file.glb");
+  check_refused("run " + tiny + " --steps 1000000000 --image /nonexistent/file.png", "/nonexistent/file.png");
+  check_refused("run " + tiny + " --steps 1000000000 --image picture.jpg", ".png");
+  check_refused("run " + tiny + " --steps 1000000000 --image picture.png --camera 1e39,0,0,0,0,1", "--camera");
   check_refused("run " + tiny + " --image picture.png --image-size 0x5", "--image-size");
   check_refused("run " + tiny + " --image picture.png --image-size 640", "WIDTHxHEIGHT");
   check_refused("run " + tiny + " --image picture.png --camera 1,2,3", "EX,EY,EZ");

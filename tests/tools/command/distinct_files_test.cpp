@@ -53,7 +53,7 @@ TEST_CASE("distinct files: two outputs of one name are refused before anything r
 {
   const Scratch folder;
   check_clash(folder, long_run + " --json same.out --events same.out", "--events writes this file too");
-  check_clash(folder, long_run + " --save same.glb --image ./same.glb", "same.glb");
+  check_clash(folder, long_run + " --trace same.png --image ./same.png", "same.png");
   check_clash(folder, long_run + " --trace t.json --events '" + folder.file("t.json") + "'", "t.json");
   files::create_symlink("target.json", folder.file("link.json"));
   check_clash(folder, long_run + " --trace link.json --json target.json", "--trace writes this file too");

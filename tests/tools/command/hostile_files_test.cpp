@@ -343,7 +343,7 @@ TEST_CASE("hostile files: what was printed is written, or the status says so", "
         "tandem: --json /dev/stdout: cannot write: No space left on device\n");
 }
 
-TEST_CASE("hostile files: a file is replaced whole, with its mode, through links; a run that fails leaves it",
+TEST_CASE("hostile files: a file is replaced whole, with its mode, through links, and a run that fails leaves it",
           "[command]")
 {
   const Scratch scratch;

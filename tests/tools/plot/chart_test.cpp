@@ -74,7 +74,7 @@ TEST_CASE("chart: tick texts are short and exact", "[chart]")
   CHECK(tick_text(1e12) == "10¹²");
 }
 
-TEST_CASE("chart: every point has a marker and a note; names are escaped", "[chart]")
+TEST_CASE("chart: every point has a marker and a note, and names are escaped", "[chart]")
 {
   Chart chart = two_points(0.25);
   chart.series[0].points[1].note = "4 substeps <biased>";
