@@ -11,6 +11,13 @@
 # TANDEM_MODULE_ROOT (shared/, minicl/ and host/runtime/interface/ lie there) and TANDEM_MODULE_TEMPLATES are set by who
 # includes this file: the tree itself, or the installed package.
 
+# What every kernel is compiled with, the pipeline's too: contraction of a*b+c into one rounding is what CPU and GPU
+# compilers disagree on most (docs/exactness.md).
+function(tandem_kernel_options exact avx512)
+  set(${exact} -ffp-contract=off -fno-fast-math -fno-math-errno PARENT_SCOPE)
+  set(${avx512} -mavx512f -mavx512vl -mavx512dq -mavx512bw -mprefer-vector-width=512 PARENT_SCOPE)
+endfunction()
+
 # The ways in which MiniCL compiles the same source: name, lanes, what is defined besides, and a condition.
 function(tandem_module_width module width lanes defines condition options)
   set(WIDTH ${module}_${width})
@@ -66,11 +73,12 @@ function(tandem_add_module module)
   configure_file(${TANDEM_MODULE_TEMPLATES}/module.cpp.in ${MODULE_FOLDER}/${module}_module.cpp @ONLY)
   configure_file(${TANDEM_MODULE_TEMPLATES}/module.cl.in ${MODULE_FOLDER}/${module}.cl @ONLY)
 
+  tandem_kernel_options(exact avx512_options)
   set(avx2)
   set(avx512)
   if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
     set(avx2 -mavx2)
-    set(avx512 -mavx512f -mavx512vl -mavx512dq -mavx512bw -mprefer-vector-width=512)
+    set(avx512 ${avx512_options})
   endif()
   set(module_widths)
   set(not_uninitialized -Wno-uninitialized $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>) # GCC bug 105593
@@ -102,7 +110,7 @@ function(tandem_add_module module)
     ${MODULE_FOLDER}/generated/${module}_programs.cpp)
   set_target_properties(${module} PROPERTIES POSITION_INDEPENDENT_CODE ON CXX_EXTENSIONS ON)
   target_compile_features(${module} PUBLIC cxx_std_20)
-  target_compile_options(${module} PRIVATE -ffp-contract=off -fno-fast-math -fno-math-errno
+  target_compile_options(${module} PRIVATE ${exact}
     $<$<CXX_COMPILER_ID:GNU>:-fno-tree-slp-vectorize>)
   target_include_directories(${module} PUBLIC ${MODULE_FOLDER}/include
     PRIVATE ${MODULE_FOLDER} ${MODULE_SOURCES} ${TANDEM_MODULE_ROOT})

@@ -128,7 +128,7 @@ typedef struct {
   BUFFER(kept_order, uint, order)                                                                                      \
   BUFFER(kept_place, uint, place)
 
-/* The bodies that sleep, sorted by the cells of sleeping/near_sleepers.h. */
+/* The bodies that sleep: sleeping/sleeper_table.h. */
 #define GROUP_sleepers(BUFFER)                                                                                         \
   BUFFER(sleeper_key, uint, key)                                                                                       \
   BUFFER(sleeper_body, uint, body)                                                                                     \

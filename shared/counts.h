@@ -93,6 +93,8 @@ enum {
   COUNT_FIRST_MISBATCHED,
   COUNT_ALL_BODIES,           /* COUNT_BODIES, which are awake, and those that sleep behind them; set by the host */
   COUNT_SLEEPERS,             /* those alone; set by the host */
+  COUNT_SORTED_SLEEPERS,      /* entries of the table of sleepers that are sorted: sleeping/sleeper_table.h */
+  COUNT_LISTED_SLEEPERS,      /* all of its entries; by the kernel that sorts, and by the host that appends */
   COUNT_SLEEPER_REACH,        /* bits of a float: the largest half extent of their boxes, m */
   COUNT_SLEEPER_PAIRS,        /* pairs of a body that is awake and one that sleeps, up to the capacity */
   COUNT_SLEEPER_PAIRS_NEEDED, /* those found */

@@ -11,7 +11,7 @@ function(join_tests tests group pattern)
 endfunction()
 
 join_tests(watched_tests watched ".*")
-join_tests(lent_tests lent_worlds "host/(base|include|runtime|scene|world)/|physics/")
+join_tests(lent_tests lent_worlds "host/(include|runtime|scene|world)/|physics/")
 # Each of these has names that its neighbours use for something else.
 foreach(name call_faults combinations locks properties shapes snapshot state_ring threads)
   join_tests(lent_tests lent_${name} "host/world/${name}_test")
@@ -26,6 +26,7 @@ list(REMOVE_ITEM other_tests ${watched_tests} ${lent_tests})
 join_tests(other_tests host "(host|minicl)/")
 join_tests(other_tests values "host/(base|catalog|geometry|verify)/")
 join_tests(other_tests world "host/world/")
+join_tests(other_tests module "module/")
 join_tests(other_tests parity "parity/")
 join_tests(other_tests physics "physics/")
 join_tests(other_tests collision

@@ -66,29 +66,37 @@ void check_may_write(const KernelRow &row, Buffer buffer, std::optional<StepPoin
                      row_of(buffer).name));
 }
 
-/* Hits of the last World::cast_rays_on_device or cast_shapes_on_device: a row for each query, and at least one for each
- * body that a kernel over bodies, or over their pairs, may look up. */
-uint32_t hits_needed(const KernelRow &row, uint32_t most, const StepPlan &plan)
+/* How many hits a kernel may read, a row for each query: one for each of its items, or for each body that it looks up.
+ * Within a step nobody knows beforehand how many pairs there will be. */
+uint32_t hits_needed(const KernelRow &row, uint32_t most, const StepPlan &plan, bool within_step)
 {
-  return is_told_by_scene(row.items) ? most : std::min(most, plan.known[COUNT_BODIES]);
+  if (is_told_by_scene(row.items) || within_step) return most;
+  return std::max(plan.known[row.items], plan.known[COUNT_ALL_BODIES]);
 }
 
-void check_has_hits(const KernelRow &row, Buffer buffer, uint32_t needed, const Launcher &launcher)
+void check_has_hits(const KernelRow &row, Buffer buffer, uint32_t needed, const StepPlan &plan,
+                    const Launcher &launcher)
 {
-  const size_t hits = launcher.bytes(buffer) / size_of(row_of(buffer).element);
+  const size_t bytes = launcher.bytes(buffer);
+  if (bytes == SIZE_MAX) return; /* launches are only recorded */
+  const size_t hits = std::min<size_t>(plan.hits, bytes / size_of(row_of(buffer).element));
   if (hits == 0)
-    refuse(row, fmt::format("buffer '{}' is empty; World::cast_rays_on_device or cast_shapes_on_device fills it",
+    refuse(row, fmt::format("buffer '{}' is empty; World::cast_rays_on_device or cast_shapes_on_device fills it, until "
+                            "another query or the end of a step",
                             row_of(buffer).name));
   if (hits < needed)
     refuse(row, fmt::format("buffer '{}' has the hits of {} queries, and the kernel may read those of {}",
                             row_of(buffer).name, hits, needed));
 }
 
-void check_is_filled(const KernelRow &row, Buffer buffer, uint32_t hits, const Launcher &launcher)
+bool holds_hits(Buffer buffer)
 {
-  if (buffer == Buffer::query_hit || buffer == Buffer::query_point || buffer == Buffer::query_hit_body)
-    check_has_hits(row, buffer, hits, launcher);
-  else if (row_of(buffer).capacity == Capacity::NOTHING && launcher.bytes(buffer) == 0)
+  return buffer == Buffer::query_hit || buffer == Buffer::query_point || buffer == Buffer::query_hit_body;
+}
+
+void check_is_filled(const KernelRow &row, Buffer buffer, const Launcher &launcher)
+{
+  if (row_of(buffer).capacity == Capacity::NOTHING && launcher.bytes(buffer) == 0)
     refuse(row, fmt::format("buffer '{}' is empty; World::write gives it its size", row_of(buffer).name));
 }
 
@@ -145,7 +153,9 @@ void StepLaunches::run_of_module(Kernel kernel, const Values &values, const Slot
     const bool is_slot = argument.kind == Argument::Kind::slot;
     const Buffer buffer = is_slot ? slots.at(slot++) : argument.buffer;
     if (is_slot) check_slot(row, argument, buffer, most, launcher_);
-    check_is_filled(row, buffer, hits_needed(row, most, plan_), launcher_);
+    if (holds_hits(buffer))
+      check_has_hits(row, buffer, hits_needed(row, most, plan_, point.has_value()), plan_, launcher_);
+    else check_is_filled(row, buffer, launcher_);
     if (argument.access != Access::in) check_may_write(row, buffer, point);
   }
   if (row.execution == Execution::group) run_at_most(kernel, most, values, slots);

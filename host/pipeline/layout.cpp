@@ -12,6 +12,7 @@
 #include "shared/broadphase/candidate_limits.h"
 #include "shared/broadphase/sweep_limits.h"
 #include "shared/platform.h"
+#include "shared/sleeping/table_limits.h"
 
 namespace tandem {
 namespace {
@@ -46,6 +47,7 @@ size_t items_of(Capacity capacity, const Sizes &sizes)
   case Capacity::HULL_LINKS: return sizes.hulls.links;
   case Capacity::BODIES: return sizes.bodies;
   case Capacity::BODIES_PLUS_ONE: return size_t{sizes.bodies} + 1;
+  case Capacity::SLEEPERS: return size_t{sizes.bodies} + MOST_UNSORTED_SLEEPERS;
   case Capacity::PAIRS: return sizes.pairs;
   case Capacity::EVENTS: return 2 * size_t{sizes.pairs}; /* at most the pairs of this step and of the last */
   case Capacity::PAIRS_PLUS_ONE: return size_t{sizes.pairs} + 1;

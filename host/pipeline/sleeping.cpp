@@ -46,6 +46,18 @@ void list_sleepers(StepLaunches &step)
   step.run(Kernel::keep_sleepers);
 }
 
+void append_sleepers(StepLaunches &step, uint32_t fallen)
+{
+  for (const Kernel kernel : {Kernel::compute_query_bounds, Kernel::append_sleepers})
+    step.launcher().launch({kernel, {}, {}, COUNT_BODIES, COUNT_LENGTH, fallen});
+}
+
+void renumber_sleepers(Launcher &launcher, uint32_t awake, uint32_t most)
+{
+  move_body_rows(launcher, {Buffer::sleeper_place, {Buffer::sleeper_place}}, COUNT_LENGTH, most);
+  launcher.launch({Kernel::renumber_sleepers, {}, {awake}, COUNT_ZERO, COUNT_LENGTH, most});
+}
+
 void find_near_sleepers(StepLaunches &step)
 {
   step.run(Kernel::near_sleepers_count);

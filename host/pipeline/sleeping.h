@@ -8,8 +8,13 @@
 
 namespace tandem {
 
-/* Sorts the boxes of the bodies that sleep, for find_near_sleepers. */
+/* Sorts the boxes of the bodies that sleep, for find_near_sleepers: makes their table anew. */
 void list_sleepers(StepLaunches &step);
+/* Appends to the table the bodies from counts[COUNT_BODIES] to counts[COUNT_LENGTH], so many. */
+void append_sleepers(StepLaunches &step, uint32_t fallen);
+/* Gives the bodies of move_from, counts[COUNT_LENGTH] of them, their new places in the table, at most `most`; those
+ * below `awake` have none there. */
+void renumber_sleepers(Launcher &launcher, uint32_t awake, uint32_t most);
 /* Lists the pairs of a body that is awake and a sleeper near it, as the step's pairs. */
 void find_near_sleepers(StepLaunches &step);
 /* Counts for how long bodies have rested, and chooses those that fall asleep. */

@@ -21,10 +21,11 @@ struct StepPlan {
   bool sleeping = false;       /* Settings::sleeping */
   bool drowsy = false;         /* some body had rested for long enough at the last step */
   bool sleepers = false;       /* some bodies sleep */
-  bool other_sleepers = false; /* others than in the last step that listed them */
+  bool other_sleepers = false; /* than in their table, which the step makes anew */
   uint32_t island_rounds = 4;
   uint32_t colors = 16; /* up to COLOR_LIMIT + 1: the overflow constraints */
   uint32_t rounds = 16;
+  uint32_t hits = 0; /* that a cast has left on the device for kernels of modules */
   std::array<uint32_t, COUNT_TOTAL> known{}; /* counts after the last step */
 };
 

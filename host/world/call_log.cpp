@@ -120,6 +120,7 @@ void World::Implementation::start_recording(const std::string &path, const Recor
     keep_states(states, after_steps);
     fresh->put(RecordedCall::keep_states, states, after_steps);
   }
+  plan.hits = 0; /* which no snapshot holds */
   log = std::move(fresh);
 }
 

@@ -54,7 +54,9 @@ enum class RecordedCall : uint8_t {
   keep_state,
   go_back,
   run,
-  write
+  write,
+  cast_rays_on_device, /* whose hits kernels of modules read */
+  cast_shapes_on_device
 };
 
 /* What is written after a step. */

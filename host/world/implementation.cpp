@@ -212,6 +212,7 @@ bool World::Implementation::module_applies_forces() const
 QueryTarget World::Implementation::query_target()
 {
   const uint32_t structure = row_of(settings.broadphase).queries;
+  plan.hits = 0; /* the queries that follow write over those of a cast on the device */
   settle();
   if (counted_bodies != bodies()) count_bodies(bodies());
   const bool may_be_told = memory.bytes(Buffer::query_body) == queried_bodies.size() * sizeof(uint32_t);

@@ -200,8 +200,12 @@ struct World::Implementation {
   void note_sleep(Recorder &recorder) const;
   void count_bodies(uint32_t awake);
   void count_awake_bodies();
-  void sleepers_changed();
-  void tell_sleepers();
+  void sleepers_changed(bool sort_anew = true);
+  void tell_sleepers(bool sort_anew = true);
+  bool is_table_right() const { return plan.sleepers && !plan.other_sleepers; }
+  void note_sorted();
+  bool fits_table(uint32_t more) const;
+  void append_fallen(uint32_t before);
   void keep_sleeping(const std::vector<CarriedBuffer> &old_rows);
   void recount_motion();
   void keep_order_of_events();
@@ -266,6 +270,7 @@ struct World::Implementation {
   std::vector<uint32_t> set_elsewhere;  /* slots of the bodies that commands not applied yet put elsewhere */
   std::set<uint32_t> moving_kinematics; /* slots */
   uint32_t awake_dynamics = 0;
+  uint32_t sorted_sleepers = 0, listed_sleepers = 0; /* entries of their table, while it is right */
   uint32_t counted_bodies = 0; /* that kernels see: those awake, or for queries all */
   uint64_t quiet_state = 0;    /* the state that the last step left */
   std::vector<Quarantine> quarantined;

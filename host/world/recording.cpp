@@ -205,6 +205,20 @@ private:
       const auto offset = reader_.get<uint64_t>();
       const auto bytes = get_bytes(reader_);
       if (world_) world_->write_bytes(buffer_named(buffer), bytes.data(), bytes.size(), static_cast<size_t>(offset));
+    } else make_cast(call);
+  }
+
+  void make_cast(RecordedCall call)
+  {
+    if (call == RecordedCall::cast_rays_on_device) {
+      const auto rays = list<Ray>();
+      if (world_) world_->cast_rays_on_device(rays);
+    } else if (call == RecordedCall::cast_shapes_on_device) {
+      const Shape shape = get_shape(reader_);
+      const auto poses = list<Pose>();
+      const auto displacements = list<Vec3>();
+      const auto filter = reader_.get<QueryFilter>();
+      if (world_) world_->cast_shapes_on_device(shape, poses, displacements, filter);
     } else reader_.fail(fmt::format("call {} is unknown", static_cast<unsigned>(call)));
   }
 

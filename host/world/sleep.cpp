@@ -5,7 +5,9 @@
  *
  * Bodies that fall asleep move behind the others, and their cached pairs go to host/world/sleepers.h. Bodies that wake
  * move to the end of those awake and change places with sleepers that lie there; their pairs are appended to the cached
- * ones. Waking costs what moves, and falling asleep what was awake; neither costs what sleeps.
+ * ones. The table in which those awake look for sleepers is changed where others sleep than before, and sorted anew
+ * when much of it is out of order (shared/sleeping/sleeper_table.h). So waking costs what moves, and falling asleep
+ * what was awake; neither costs what sleeps.
  *
  * A large body that wakes is one of the small ones from then on: the broadphase finds the same pairs, and takes longer.
  *
@@ -23,6 +25,7 @@
 #include "host/pipeline/sleeping.h"
 #include "host/scene/parameters.h"
 #include "host/world/implementation.h"
+#include "shared/sleeping/table_limits.h"
 
 namespace tandem {
 namespace {
@@ -78,6 +81,8 @@ std::vector<CarriedBuffer> World::Implementation::pair_rows(const std::vector<bo
 void World::Implementation::note_sleep(Recorder &recorder) const
 {
   StepLaunches step(recorder, plan, settings);
+  append_sleepers(step, plan.bodies);
+  renumber_sleepers(recorder, plan.bodies, plan.bodies);
   place_awake_first(step, plan.capacity_pairs);
   recorder.note(Kernel::disturb_rest);
   const std::vector<bool> touched = recorder.touched;
@@ -103,21 +108,48 @@ void World::Implementation::count_awake_bodies()
 }
 
 /* To be called when other bodies sleep than before. */
-void World::Implementation::sleepers_changed()
+void World::Implementation::sleepers_changed(bool sort_anew)
 {
   set_of_sleepers = ++sets_of_sleepers;
-  tell_sleepers();
+  tell_sleepers(sort_anew);
 }
 
-void World::Implementation::tell_sleepers()
+/* The launches that have ended made the table anew, unless it was right before. */
+void World::Implementation::note_sorted()
+{
+  if (plan.other_sleepers) sorted_sleepers = listed_sleepers = sleepers.count();
+  plan.other_sleepers = false;
+}
+
+/* Whether so many more may stand in the table unsorted. */
+bool World::Implementation::fits_table(uint32_t more) const
+{
+  return uint64_t{listed_sleepers} + more - sorted_sleepers <= MOST_UNSORTED_SLEEPERS;
+}
+
+/* The bodies that fell asleep in the last step lie behind those awake, of which there were so many before. */
+void World::Implementation::append_fallen(uint32_t before)
+{
+  const uint32_t fallen = before - special.awake;
+  begin_launches();
+  set_length(memory, before);
+  StepLaunches step(launcher, plan, settings);
+  append_sleepers(step, fallen);
+  launches_ended = true;
+  listed_sleepers += fallen;
+  memory.upload(Buffer::counts, &listed_sleepers, sizeof listed_sleepers,
+                COUNT_LISTED_SLEEPERS * sizeof listed_sleepers);
+}
+
+void World::Implementation::tell_sleepers(bool sort_anew)
 {
   const uint32_t none = 0;
-  memory.upload(Buffer::counts, &none, sizeof none, COUNT_SLEEPER_REACH * sizeof none);
+  if (sort_anew) memory.upload(Buffer::counts, &none, sizeof none, COUNT_SLEEPER_REACH * sizeof none);
   count_bodies(special.awake);
   plan.known[COUNT_COMMIT_BODIES] = special.awake;
   plan.known[COUNT_COMMIT_BODIES_PLUS_ONE] = special.awake + 1;
   plan.sleepers = !sleepers.empty();
-  plan.other_sleepers = true;
+  plan.other_sleepers = plan.other_sleepers || sort_anew;
   launcher.set_keeps_sleepers(plan.sleepers);
   cached_pairs = memory.read<uint32_t>(Buffer::cached_start, 1, special.awake).front();
   forget_kept(memory);
@@ -200,7 +232,9 @@ void World::Implementation::put_to_sleep()
   for (const BodyRows &rows : body_rows(buffers.needs().touched)) move_body_rows(launcher, rows, COUNT_BODIES, before);
   launches_ended = true;
   take_fallen(falls, labels);
-  sleepers_changed();
+  const bool appends = is_table_right() && fits_table(before - special.awake);
+  sleepers_changed(!appends);
+  if (appends) append_fallen(before);
 }
 
 /* Reorders the tables of the host as the kernels have reordered the buffers, and takes the pairs of those who fell
@@ -272,6 +306,7 @@ void World::Implementation::bring_forward(const std::vector<uint32_t> &woken)
   to.insert(to.end(), vacated.begin(), vacated.end());
 
   move_rows(from, to, true);
+  if (is_table_right()) renumber_sleepers(launcher, first + count, static_cast<uint32_t>(from.size()));
   std::vector<uint32_t> moved;
   for (const uint32_t place : from) moved.push_back(special.order[place]);
   for (size_t k = 0; k < to.size(); ++k) {
@@ -352,7 +387,7 @@ void World::Implementation::wake(const std::set<uint32_t> &islands)
   memory.upload(Buffer::resting_steps, none.data(), none.size() * sizeof(uint32_t), first * sizeof(uint32_t));
   for (const uint32_t slot : bodies_woken) sleep_events_to_come.push_back({slots.id_of(slot), false});
   awake_dynamics += static_cast<uint32_t>(bodies_woken.size());
-  sleepers_changed();
+  sleepers_changed(!is_table_right() || sleepers.count() < sorted_sleepers / 2); /* many entries would be empty */
 }
 
 void World::Implementation::wake_all()

@@ -247,7 +247,7 @@ void get_shapes(ByteReader &reader, SnapshotContents &contents)
 uint32_t check_starts(const ByteReader &reader, std::span<const std::byte> bytes)
 {
   std::vector<uint32_t> starts(bytes.size() / sizeof(uint32_t));
-  std::memcpy(starts.data(), bytes.data(), starts.size() * sizeof(uint32_t));
+  if (!starts.empty()) std::memcpy(starts.data(), bytes.data(), starts.size() * sizeof(uint32_t));
   if (starts.empty() || starts.front() != 0 || !std::is_sorted(starts.begin(), starts.end()) ||
       starts.back() > most_pairs)
     reader.fail("the starts of the cached pairs do not increase from 0");

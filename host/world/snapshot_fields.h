@@ -148,6 +148,18 @@ template <Is<Pose> T, class Visit> auto visit_fields(T &record, const Visit &vis
   return visit(position, orientation);
 }
 
+template <Is<QueryFilter> T, class Visit> auto visit_fields(T &record, const Visit &visit)
+{
+  auto &[group, mask] = record;
+  return visit(group, mask);
+}
+
+template <Is<Ray> T, class Visit> auto visit_fields(T &record, const Visit &visit)
+{
+  auto &[origin, direction, reach, filter] = record;
+  return visit(origin, direction, reach, filter);
+}
+
 template <Is<Velocity> T, class Visit> auto visit_fields(T &record, const Visit &visit)
 {
   auto &[linear, angular] = record;

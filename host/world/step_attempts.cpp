@@ -74,6 +74,7 @@ void World::Implementation::check_lost() const
 void World::Implementation::sleep_on()
 {
   ++statistics.steps;
+  plan.hits = 0;
   idle = true;
   sleep_events.clear();
   keep_state_of_step();
@@ -202,13 +203,14 @@ void World::Implementation::accept()
   order_of_events.clear();
   moved_before.reset();
   ++statistics.steps;
+  plan.hits = 0;
   cached_pairs = plan.known[COUNT_PAIRS];
   plan.rounds = std::clamp<uint32_t>(plan.known[COUNT_ROUNDS] + 3, 4, most_rounds);
   plan.colors = std::min(plan.known[COUNT_COLORS] + 1, COLOR_LIMIT);
   if (plan.known[COUNT_COLORS] > COLOR_LIMIT) plan.colors = COLOR_LIMIT + 1;
   if (plan.drowsy) plan.island_rounds = std::max<uint32_t>(plan.known[COUNT_ISLAND_ROUNDS] + 2, 4);
   plan.drowsy = plan.known[COUNT_DROWSY] > 0;
-  plan.other_sleepers = false;
+  note_sorted();
 }
 
 void World::Implementation::prepare_repetition(uint32_t status, bool &may_forget)
@@ -219,6 +221,7 @@ void World::Implementation::prepare_repetition(uint32_t status, bool &may_forget
   if (status & STATUS_ISLANDS) plan.island_rounds = std::min(2 * plan.island_rounds, most_rounds);
   if (plan.colors > COLOR_LIMIT && !(status & STATUS_PAIRS)) enlarge(plan.capacity_pairs);
   if (status & STATUS_NONFINITE) quarantine_from(plan.known[COUNT_NONFINITE]);
+  note_sorted();
   if (status & STATUS_WAKE) wake_touched();
   plan.known[COUNT_COMMIT_BODIES] = special.awake;
   plan.known[COUNT_COMMIT_BODIES_PLUS_ONE] = special.awake + 1;

@@ -514,8 +514,11 @@ void World::cast_rays_on_device(std::span<const Ray> rays)
 {
   check_rays(rays);
   const minicl::ExactFloatingPoint environment;
-  answer_in_turn(*implementation_, "queries",
-                 [&] { tandem::cast_rays_on_device(implementation_->target_for_kernels(), rays); });
+  answer_in_turn(*implementation_, "queries", [&] {
+    tandem::cast_rays_on_device(implementation_->target_for_kernels(), rays);
+    implementation_->plan.hits = static_cast<uint32_t>(rays.size());
+    note(implementation_->log, RecordedCall::cast_rays_on_device, rays);
+  });
 }
 
 void World::cast_shapes_on_device(const Shape &shape, std::span<const Pose> poses,
@@ -525,6 +528,8 @@ void World::cast_shapes_on_device(const Shape &shape, std::span<const Pose> pose
   const minicl::ExactFloatingPoint environment;
   answer_in_turn(*implementation_, "queries", [&] {
     tandem::cast_shapes_on_device(implementation_->target_for_kernels(), shape, poses, displacements, filter);
+    implementation_->plan.hits = static_cast<uint32_t>(poses.size());
+    note(implementation_->log, RecordedCall::cast_shapes_on_device, shape, poses, displacements, filter);
   });
 }
 

@@ -9,6 +9,7 @@
 #include "shared/sleeping/islands.h"
 #include "shared/sleeping/near_sleepers.h"
 #include "shared/sleeping/rest.h"
+#include "shared/sleeping/sleeper_table.h"
 #endif
 
 #endif

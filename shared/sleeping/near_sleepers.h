@@ -1,8 +1,7 @@
 /* near_sleepers.h - finds the sleeping bodies that those awake come near to, so that contact wakes them.
  *
- * The boxes of sleeping bodies do not move, so they are sorted once, by the cell of their centre, whenever the set of
- * sleepers changes. A cell is as wide as the largest of them. Boxes that are large beside the others have a key behind
- * all cells and are tested one by one.
+ * Sleepers stand in a table by the cells of their boxes (shared/sleeping/sleeper_table.h). Large ones, and those that
+ * fell asleep since the table was sorted, are tested one by one.
  *
  *        +----+----+----+
  *        |    | s  |    |     The box of A, grown by half a cell, meets the cells of all boxes that it can overlap:
@@ -17,84 +16,32 @@
 #define TANDEM_SHARED_SLEEPING_NEAR_SLEEPERS_H
 
 #include "shared/broadphase/neighbors.h"
-#include "shared/conversion.h"
 #include "shared/parallel/search.h"
 #include "shared/sleeping/islands.h"
+#include "shared/sleeping/sleeper_table.h"
 
-/* Coordinates of cells are taken modulo 2^CELL_BITS; cells that share a key cost time and change no result. */
-#define CELL_BITS 10u
-#define LARGE_SLEEPER (1u << (3u * CELL_BITS))
 /* More cells along an axis than this are not visited one by one. */
 #define MOST_CELLS 8u
 
-SHARED real larger_half_extent(box_bounds box)
-{
-  vec3 size = subtract(box.upper, box.lower);
-  return R(0.5) * maximum(size.x, maximum(size.y, size.z));
-}
-
-/* The boxes larger than this have no cell. */
-SHARED mask is_large_sleeper(GLOBAL const Parameters *parameters, box_bounds box)
-{
-  return larger_half_extent(box) > R(2.0) * parameters->hybrid_cell;
-}
-
-/* Positive floats have the order of their bits. The factor exceeds what rounding to a float may take away. */
-SHARED void measure_sleepers_item(GLOBAL const Parameters *parameters, GLOBAL const float4 *bounds, GLOBAL uint *counts,
-                                  uint i)
-{
-  box_bounds box = load_bounds(bounds, i);
-  if (!is_large_sleeper(parameters, box))
-    ATOMIC_MAX(counts + COUNT_SLEEPER_REACH, FLOAT_BITS(R(1.000001) * larger_half_extent(box)));
-}
-
-SHARED real reach_of_sleepers(GLOBAL const uint *counts) { return BITS_FLOAT(counts[COUNT_SLEEPER_REACH]); }
-
-/* The reach is 0 if all sleepers are large: the quotient is then infinite or no number, and floor_to_int takes it. */
-SHARED int sleeper_cell_along(real x, real reach) { return floor_to_int(x / (R(2.0) * reach)); }
-
-SHARED uint key_of_cell(int x, int y, int z)
-{
-  uint most = (1u << CELL_BITS) - 1u;
-  return ((uint)x & most) | ((uint)y & most) << CELL_BITS | ((uint)z & most) << (2u * CELL_BITS);
-}
-
-SHARED void sleeper_keys_item(GLOBAL const Parameters *parameters, GLOBAL const float4 *bounds,
-                              GLOBAL const uint *counts, GLOBAL uint *sort_key, GLOBAL uint *sort_value, uint i)
-{
-  uint place = i - counts[COUNT_BODIES];
-  box_bounds box = load_bounds(bounds, i);
-  vec3 center = scale(add(box.lower, box.upper), R(0.5));
-  real reach = reach_of_sleepers(counts);
-  sort_key[place] = is_large_sleeper(parameters, box)
-                        ? LARGE_SLEEPER
-                        : key_of_cell(sleeper_cell_along(center.x, reach), sleeper_cell_along(center.y, reach),
-                                      sleeper_cell_along(center.z, reach));
-  sort_value[place] = i;
-}
-
-SHARED void keep_sleepers_item(GLOBAL const uint *sort_key, GLOBAL const uint *sort_value, GLOBAL const float4 *bounds,
-                               write_sleepers sleepers, uint i)
-{
-  uint body = sort_value[i];
-  sleepers.key[i] = sort_key[i];
-  sleepers.body[i] = body;
-  store_float4(sleepers.bounds, 2u * i, load_float4(bounds, 2u * body));
-  store_float4(sleepers.bounds, 2u * i + 1u, load_float4(bounds, 2u * body + 1u));
-}
-
-/* The sorted sleepers. */
+/* The table of sleepers, of which the first ones are sorted. */
 typedef struct {
   read_sleepers table;
-  uint count;
+  uint sorted, count;
 } sleeper_list;
+
+SHARED sleeper_list list_of_sleepers(read_sleepers table, GLOBAL const uint *counts)
+{
+  sleeper_list list = {table, counts[COUNT_SORTED_SLEEPERS], counts[COUNT_LISTED_SLEEPERS]};
+  return list;
+}
 
 FORCE_INLINE uint find_among_sleepers(const pair_search *search, const sleeper_list *sleepers, uint first, uint end,
                                       const find_list *list, uint at)
 {
   for (uint k = first; k < end; ++k) {
     uint other = sleepers->table.body[k];
-    if (bounds_overlap(search->box, load_bounds(sleepers->table.bounds, k)) && may_meet(search, other))
+    if (other != INDEX_NONE && bounds_overlap(search->box, load_bounds(sleepers->table.bounds, k)) &&
+        may_meet(search, other))
       at = add_find(list, at, search->body, other);
   }
   return at;
@@ -110,9 +57,9 @@ FORCE_INLINE uint find_in_sleeper_cells(const pair_search *search, const sleeper
       uint end = 0u, after = INDEX_NONE; /* after: the key that follows the last cell's */
       for (int x = low[0]; x <= high[0]; ++x) {
         uint key = key_of_cell(x, y, z),
-             first = key == after ? end : lower_bound_of(sleepers->table.key, sleepers->count, key);
+             first = key == after ? end : lower_bound_of(sleepers->table.key, sleepers->sorted, key);
         end = first;
-        while (end < sleepers->count && sleepers->table.key[end] == key) ++end;
+        while (end < sleepers->sorted && sleepers->table.key[end] == key) ++end;
         at = find_among_sleepers(search, sleepers, first, end, list, at);
         after = key + 1u;
       }
@@ -136,7 +83,7 @@ FORCE_INLINE uint find_sleepers(const pair_search *search, const sleeper_list *s
   if (covers_many_cells(low[0], high[0]) || covers_many_cells(low[1], high[1]) || covers_many_cells(low[2], high[2]))
     return find_among_sleepers(search, sleepers, 0u, sleepers->count, list, at);
   at = find_in_sleeper_cells(search, sleepers, low, high, list, at);
-  uint first = lower_bound_of(sleepers->table.key, sleepers->count, LARGE_SLEEPER);
+  uint first = lower_bound_of(sleepers->table.key, sleepers->sorted, LARGE_SLEEPER);
   return find_among_sleepers(search, sleepers, first, sleepers->count, list, at);
 }
 
@@ -151,7 +98,7 @@ SHARED void near_sleepers_count_item(GLOBAL const Parameters *parameters, GLOBAL
                                      GLOBAL const float4 *body_velocity, read_sleepers table, GLOBAL const uint *counts,
                                      GLOBAL uint *pair_start, uint i)
 {
-  sleeper_list sleepers = {table, counts[COUNT_SLEEPERS]};
+  sleeper_list sleepers = list_of_sleepers(table, counts);
   find_list list = no_neighbors();
   pair_search search = search_of_body(parameters, body_flags, body_filter, bounds, i);
   pair_start[i] = may_wake(body_flags, body_velocity, i) ? find_sleepers(&search, &sleepers, counts, &list, 0u) : 0u;
@@ -164,7 +111,7 @@ SHARED void near_sleepers_write_item(GLOBAL const Parameters *parameters, GLOBAL
                                      uint i)
 {
   if (pair_start[i + 1u] == pair_start[i]) return;
-  sleeper_list sleepers = {table, counts[COUNT_SLEEPERS]};
+  sleeper_list sleepers = list_of_sleepers(table, counts);
   find_list list = finds_as_bodies(pairs.a, counts[CAPACITY_PAIRS]);
   pair_search search = search_of_body(parameters, body_flags, body_filter, bounds, i);
   uint end = find_sleepers(&search, &sleepers, counts, &list, pair_start[i]), capacity = counts[CAPACITY_PAIRS];

@@ -1,15 +1,5 @@
 /* A module beside the pipeline's (tests/module/probe_kernels.def): its kernels run at every point, in every form and on
  * every backend, its buffers live as long as they say, and what does not fit is refused by name. */
-#include <algorithm>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
-#include <numeric>
-
-#include <fmt/format.h>
-#include <unistd.h>
-
 #include <tandem/compare.h>
 #include <tandem/load_scene.h>
 #include <tandem/world.h>
@@ -18,65 +8,12 @@
 #include "host/runtime/launcher.h"
 #include "host/runtime/memory.h"
 #include "host/verify/breakpoint.h"
-#include "probe.h"
 #include "tests/catch.h"
-#include "tests/host/runtime/opencl/pocl.h"
+#include "tests/module/pushing.h"
 
 using namespace tandem;
+using namespace module_tests;
 using Catch::Matchers::Contains;
-
-namespace {
-
-const std::vector<float> gust{0.5f, 0, -0.25f, 0}; /* m/s a substep */
-
-Extension pushing(uint32_t times)
-{
-  return {&probe::module(),
-          [](World &world) { world.write<float>(probe::buffer::probe_force(), gust); },
-          {{StepPoint::forces,
-            [times](Launches &launches) {
-              const uint32_t values[] = {times};
-              launches.run(probe::kernel::probe_push(), values);
-            }},
-           {StepPoint::commit, [](Launches &launches) { launches.run(probe::kernel::probe_count()); }}}};
-}
-
-Settings with(const Extension &extension)
-{
-  Settings settings;
-  settings.extensions = {extension};
-  return settings;
-}
-
-/* Far from each other, without gravity. */
-Scene balls(uint32_t n)
-{
-  Scene scene;
-  scene.gravity = {0, 0, 0};
-  scene.shapes = {sphere_shape(0.1f)};
-  scene.bodies.resize(n);
-  for (uint32_t i = 0; i < n; ++i) scene.bodies[i].position = {2.0 * i, 0, 0};
-  return scene;
-}
-
-std::string message_of(const std::function<void()> &work)
-{
-  try {
-    work();
-  } catch (const InputError &error) {
-    return error.what();
-  }
-  return "nothing was refused";
-}
-
-std::vector<std::string> all_backends()
-{
-  std::vector<std::string> backends{"serial", "serial:order=backward", "tbb:threads=2,lanes=4", "tbb"};
-  parity::add_pocl(backends);
-  return backends;
-}
-
-} // namespace
 
 TEST_CASE("module: a kernel at the forces pushes in each substep, on every backend")
 {
@@ -144,74 +81,6 @@ TEST_CASE("module: a kernel between steps changes what the next step starts from
     world.step();
     CHECK(world.bodies()[1].position[1] == Approx(0).margin(1e-6));
   }
-}
-
-/* A ray for each body, in the order of the buffers; every other one looks away. */
-TEST_CASE("module: a kernel between steps reads the hits of rays and shape casts where they were left")
-{
-  const Scene scene = balls(9);
-  for (const std::string &backend : all_backends()) {
-    CAPTURE(backend);
-    World world(scene, with(pushing(0)), {backend, {}});
-    std::vector<Ray> rays(9);
-    std::vector<Pose> poses(9);
-    std::vector<Vec3> paths(9);
-    for (uint32_t i = 0; i < 9; ++i) {
-      const double sign = i % 2 ? 1 : -1;
-      rays[i].origin = poses[i].position = {2.0 * world.scene_body(i), 1 + 0.125 * i, 0};
-      rays[i].direction = paths[i] = {0, float(-4 * sign), 0};
-    }
-    for (const bool shapes : {false, true}) {
-      if (shapes) world.cast_shapes_on_device(sphere_shape(0.05f), poses, paths);
-      else world.cast_rays_on_device(rays);
-      world.run(probe::kernel::probe_see());
-      const std::vector<BodyState> bodies = world.bodies();
-      const std::vector<RayHit> hits = shapes ? world.cast_shapes(sphere_shape(0.05f), poses, paths)
-                                              : world.cast_rays(rays);
-      for (uint32_t i = 0; i < 9; ++i) {
-        CAPTURE(shapes, i);
-        REQUIRE((hits[i].body == no_body) == (i % 2 == 0));
-        const float radii = shapes ? 0.15f : 0.1f, expected = i % 2 ? (1 + 0.125f * float(i) - radii) / 4 : 0;
-        CHECK(bodies[world.scene_body(i)].linear_velocity[1] == hits[i].normal[1] * hits[i].fraction);
-        CHECK(bodies[world.scene_body(i)].linear_velocity[1] == Approx(expected).margin(1e-5));
-      }
-    }
-    world.step();
-  }
-}
-
-TEST_CASE("module: a kernel over more items than there are hits is refused, also when the last cast had none")
-{
-  World world(balls(9), with(pushing(0)), {"serial", {}});
-  const auto refusal = [&] { return message_of([&] { world.run(probe::kernel::probe_see()); }); };
-  const std::string fills = "is empty; World::cast_rays_on_device or cast_shapes_on_device fills it";
-  CHECK_THAT(refusal(), Contains(fills));
-  std::vector<Ray> rays(9);
-  for (Ray &ray : rays) ray.direction = {0, -9, 0};
-  world.cast_rays_on_device(std::span(rays).first(8));
-  CHECK_THAT(refusal(), Contains("has the hits of 8 queries, and the kernel may read those of 9"));
-  world.cast_rays_on_device(rays);
-  world.run(probe::kernel::probe_see());
-  world.cast_rays_on_device({});
-  CHECK_THAT(refusal(), Contains(fills));
-  world.cast_rays_on_device(rays);
-  world.cast_shapes_on_device(sphere_shape(0.1f), {}, {});
-  CHECK_THAT(refusal(), Contains(fills));
-}
-
-/* A world has room for more bodies and pairs than it has, and no program knows for how many. */
-TEST_CASE("module: a kernel over pairs reads the hits of their bodies, where each body has one")
-{
-  World world(balls(9), with(pushing(0)), {"serial", {}});
-  world.create_body(balls(1).bodies[0]);
-  std::vector<Ray> rays(10);
-  for (Ray &ray : rays) ray.direction = {0, -9, 0};
-  world.cast_rays_on_device(std::span(rays).first(9));
-  CHECK_THAT(message_of([&] { world.run(probe::kernel::probe_see_pairs()); }),
-             Contains("has the hits of 9 queries, and the kernel may read those of 10"));
-  world.cast_rays_on_device(rays);
-  world.run(probe::kernel::probe_see_pairs());
-  world.run(probe::kernel::probe_see());
 }
 
 TEST_CASE("module: contacts that a kernel drops hold nothing")
@@ -331,28 +200,6 @@ TEST_CASE("module: a snapshot holds what its buffers hold, and asks for the modu
   world.restore(snapshot);
   world.step();
   CHECK(world.read<uint32_t>(probe::buffer::probe_age()) == std::vector<uint32_t>(5, 4));
-}
-
-TEST_CASE("module: what is written to its buffers and run between steps is in a recording")
-{
-  const std::string path = std::filesystem::temp_directory_path() / fmt::format("tandem-module-{}.tandem", getpid());
-  World world(balls(5), with(pushing(1)), {"tbb", {}});
-  world.start_recording(path);
-  for (int i = 0; i < 4; ++i) {
-    world.write<float>(probe::buffer::probe_force(), std::vector<float>{0.1f * static_cast<float>(i), 0, 0, 0});
-    if (i == 2) world.run(probe::kernel::probe_turn_back());
-    world.step();
-  }
-  world.stop_recording();
-  std::ifstream file(path, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  std::filesystem::remove(path);
-  std::vector<std::byte> bytes(text.size());
-  std::memcpy(bytes.data(), text.data(), text.size());
-  const WorldRecording recording(std::move(bytes), "F.tandem");
-  World again(recording.snapshot(), {"serial", {}}, {pushing(1)});
-  CHECK_FALSE(replay(recording, again, {}));
-  CHECK(again.state_hash() == world.state_hash());
 }
 
 TEST_CASE("module: a buffer of any size keeps what it had where there is no room for more, and grows else")

@@ -1,7 +1,8 @@
 # The files of tests that a sanitizer tree runs: those with a test tagged [sanitizer] or [address], and whole files that
-# read what others wrote. Files that compile shared/ or the dispatcher's threads into themselves are instrumented
-# (`watched_tests`); the others only call the library (`lent_tests`), and are borrowed where there is a tree to borrow
-# from (cmake/Sanitizers.cmake). The tree that lends needs these lists, too, since it joins sources (tests/join.cmake).
+# read what others wrote. Files that compile shared/, the dispatcher's threads or what stands in headers of host/base
+# into themselves are instrumented (`watched_tests`); the others only call the library (`lent_tests`), and are borrowed
+# where there is a tree to borrow from (cmake/Sanitizers.cmake). The tree that lends needs these lists, too, since it
+# joins sources (tests/join.cmake).
 set(reader_tests io/bad_shapes_test io/contact_problem/file_test io/obj/mesh_test io/gltf/scene_test io/json/scene_test
   scene/scene_test io/gltf/solids_test io/gltf/strict_test)
 list(TRANSFORM reader_tests PREPEND host/)
@@ -16,7 +17,7 @@ foreach(source IN LISTS TEST_SOURCES)
   if(NOT tags AND NOT name IN_LIST reader_tests)
     continue()
   endif()
-  if(kernels OR path MATCHES "^minicl/")
+  if(kernels OR path MATCHES "^(minicl|host/base)/")
     list(APPEND watched_tests ${source})
   else()
     list(APPEND lent_tests ${source})

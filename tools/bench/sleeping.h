@@ -17,7 +17,7 @@ struct SleepTimes {
   Spread awake{};        /* a step while all bodies are awake */
   Spread asleep{};       /* a step while all sleep */
   Spread island{};       /* a step while one island is awake */
-  Spread wake{}, fall{}; /* World::wake_body, and the step at whose end the island falls asleep */
+  Spread wake{}, fall{}; /* World::wake_body with its step, and the step at whose end the island falls asleep */
   Spread read{};         /* World::read_body */
 };
 

@@ -196,13 +196,13 @@ std::array<uint32_t, 2> size_of_image(const std::string &text)
 
 Camera camera_from(const std::string &text, uint32_t width, uint32_t height)
 {
-  constexpr double farthest = 1e12; /* metres; beyond, no float tells the rays of two pixels apart */
+  constexpr double farthest = 1e18; /* metres, as of bodies */
   std::vector<double> numbers;
   for (size_t at = 0; at <= text.size();) {
     const size_t comma = std::min(text.find(',', at), text.size());
     numbers.push_back(real_number("--camera", text.substr(at, comma - at)));
     if (std::abs(numbers.back()) > farthest)
-      throw InputError(fmt::format("--camera '{}': use coordinates between -1e12 and 1e12 m", text));
+      throw InputError(fmt::format("--camera '{}': use coordinates between -1e18 and 1e18 m", text));
     at = comma + 1;
   }
   Camera camera;

@@ -1,4 +1,5 @@
 /* run.cpp - `tandem run`: simulates a scene and prints the time of each stage and the results. */
+#include <filesystem>
 #include <memory>
 #include <optional>
 
@@ -80,7 +81,8 @@ void check_files(const RunOptions &options, DistinctFiles &files)
 {
   const auto [width, height] = size_of_image(options.image_size);
   if (!options.camera.empty()) camera_from(options.camera, width, height);
-  if (!options.image.empty() && !options.image.ends_with(".png"))
+  const std::string ending = std::filesystem::path(options.image).extension();
+  if (!ending.empty() && ending != ".png" && ending != ".PNG")
     throw InputError(
         fmt::format("--image '{}': a picture is written as .png; name the file so", printable(options.image)));
   files.writes("--image", options.image);

@@ -7,8 +7,8 @@
  * Several worlds may be used in several threads at once. Of one world, calls that read it may be made beside each
  * other: those that return bodies, properties, handles, events, answers of queries, statistics, hashes, contents of
  * buffers or a snapshot. A call that changes it may be made beside no other call to it. Tasks of TBB's may make calls,
- * too. Snapshots and copies of more than a MiB take threads of TBB's on every backend, as many as tbb::global_control
- * allows.
+ * too. Large snapshots and copies take threads of TBB's on every backend, no more than the arena of the caller and
+ * tbb::global_control allow.
  *
  * A step is applied completely or not at all: overflow grows the buffers and runs the step again, and a body that stops
  * being finite is quarantined and reported.
@@ -125,10 +125,11 @@ public:
   void restore(std::span<const std::byte> snapshot);
 
   /* Writes from now on what is done with this world to a file: a snapshot, each call with its arguments, and a hash a
-   * step (<tandem/recording.h>). Placements, queries and other reading are not part of it. States that were kept before
-   * are forgotten. The file is complete up to the last step at any time, in case the program ends without
-   * stop_recording. Throws InputError if the file cannot be written. If writing fails later, the world goes on, and
-   * stop_recording throws InputError. A world records to one file at a time; a second call ends the first recording. */
+   * step (<tandem/recording.h>). Placements, queries that return their hits, and other reading are not part of it.
+   * States that were kept before are forgotten. The file is complete up to the last step at any time, in case the
+   * program ends without stop_recording. Throws InputError if the file cannot be written. If writing fails later, the
+   * world goes on, and stop_recording throws InputError. A world records to one file at a time; a second call ends the
+   * first recording. */
   void start_recording(const std::string &path, const RecordingOptions &options = {});
   void stop_recording(); /* does nothing unless the world records */
 
@@ -326,9 +327,9 @@ public:
 
   /* Cast as by the functions above, and leave the hits where the kernel runs, for kernels of modules: nothing is read
    * back. Row i of the buffers query_hit, query_point and query_hit_body (shared/buffers.def) is the hit of query i:
-   * normal and fraction; the point, from the start of the query; the index of the body in the scene, or no_body. The
-   * next rays, boxes, shapes or overlap tests take their place, and calls that lay buffers out anew end them; a
-   * recording does not hold them (docs/your-own-kernel.md). */
+   * normal and fraction; the point, from the start of the query; the index of the body in the scene, or no_body. They
+   * hold until the next query, the end of the next step, or a call that lays buffers out anew or starts a recording; a
+   * kernel that reads them afterwards is refused (docs/your-own-kernel.md). */
   void cast_rays_on_device(std::span<const Ray> rays);
   void cast_shapes_on_device(const Shape &shape, std::span<const Pose> poses, std::span<const Vec3> displacements,
                              const QueryFilter &filter = {});

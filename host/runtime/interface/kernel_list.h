@@ -80,6 +80,7 @@ enum class Capacity : uint8_t {
   SHAPES,
   BODIES,
   BODIES_PLUS_ONE,
+  SLEEPERS,
   PAIRS,
   PAIRS_PLUS_ONE,
   EVENTS,

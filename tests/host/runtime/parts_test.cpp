@@ -13,7 +13,7 @@
 
 using namespace tandem;
 
-TEST_CASE("parts: all run, also in a task whose group is cancelled", "[sanitizer]")
+TEST_CASE("parts: all run, also in a task whose group is cancelled", "[address]")
 {
   constexpr size_t parts = 64;
   std::vector<std::atomic<int>> runs(parts);
@@ -29,7 +29,7 @@ TEST_CASE("parts: all run, also in a task whose group is cancelled", "[sanitizer
 }
 
 /* A task that a waiting thread took besides could want a lock that this thread holds. */
-TEST_CASE("parts: a thread that waits for them begins no other task of the caller's", "[sanitizer]")
+TEST_CASE("parts: a thread that waits for them begins no other task of the caller's", "[address]")
 {
   static thread_local int begun = 0;
   std::atomic<int> most = 0;

@@ -1,7 +1,8 @@
-/* bodies.h - bodies that tests of worlds create. */
+/* bodies.h - bodies that tests of worlds create, and settings of such worlds. */
 #pragma once
 
 #include <tandem/scene.h>
+#include <tandem/settings.h>
 
 namespace tandem {
 
@@ -12,6 +13,13 @@ inline Body body_at(const Point &position, uint32_t shape = 0)
   body.shape = shape;
   body.position = position;
   return body;
+}
+
+inline Settings sleepy()
+{
+  Settings settings;
+  settings.sleeping = true;
+  return settings;
 }
 
 } // namespace tandem

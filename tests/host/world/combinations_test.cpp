@@ -13,13 +13,6 @@ using Catch::Matchers::ContainsSubstring;
 
 namespace {
 
-Settings sleepy()
-{
-  Settings settings;
-  settings.sleeping = true;
-  return settings;
-}
-
 /* Body 0 is a floor; the others are dynamic. */
 Scene floor_with(const std::vector<Body> &bodies)
 {

@@ -8,6 +8,7 @@
 
 #include "host/runtime/interface/backend.h"
 #include "tests/catch.h"
+#include "tests/host/world/bodies.h"
 
 using namespace tandem;
 using Catch::Matchers::ContainsSubstring;
@@ -15,13 +16,6 @@ using Catch::Matchers::ContainsSubstring;
 namespace {
 
 constexpr int half_second = 30;
-
-Settings sleepy()
-{
-  Settings settings;
-  settings.sleeping = true;
-  return settings;
-}
 
 /* Boxes of a metre on a floor. Shape 2 is a ball. */
 Scene floor_with_boxes(const std::vector<Point> &boxes)
