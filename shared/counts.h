@@ -116,7 +116,7 @@ enum {
 enum {
   STATUS_PAIRS = 1,    /* more pairs than capacity: grow and run the step again */
   STATUS_ROUNDS = 2,   /* colouring needs more rounds */
-  STATUS_COLORS = 4,   /* more colours than were launched */
+  STATUS_COLORS = 4,   /* more colours than were launched, or passes of overflow constraints where there are none */
   STATUS_NONFINITE = 8, /* a body is not finite: quarantine it and run the step again */
   STATUS_ISLANDS = 16,  /* islands need more rounds */
   STATUS_WAKE = 32      /* sleeping bodies were touched: wake their islands and run the step again */

@@ -66,12 +66,12 @@ void check_may_write(const KernelRow &row, Buffer buffer, std::optional<StepPoin
                      row_of(buffer).name));
 }
 
-/* How many hits a kernel may read, a row for each query: one for each of its items, or for each body that it looks up.
- * Within a step nobody knows beforehand how many pairs there will be. */
-uint32_t hits_needed(const KernelRow &row, uint32_t most, const StepPlan &plan, bool within_step)
+/* How many hits a kernel may read, a row for each query: one for each of its items, or for each body that it looks
+ * up. */
+uint32_t hits_needed(const KernelRow &row, const StepPlan &plan)
 {
-  if (is_told_by_scene(row.items) || within_step) return most;
-  return std::max(plan.known[row.items], plan.known[COUNT_ALL_BODIES]);
+  const uint32_t items = plan.known[row.items];
+  return is_told_by_scene(row.items) ? items : std::max(items, plan.known[COUNT_ALL_BODIES]);
 }
 
 void check_has_hits(const KernelRow &row, Buffer buffer, uint32_t needed, const StepPlan &plan,
@@ -82,7 +82,7 @@ void check_has_hits(const KernelRow &row, Buffer buffer, uint32_t needed, const 
   const size_t hits = std::min<size_t>(plan.hits, bytes / size_of(row_of(buffer).element));
   if (hits == 0)
     refuse(row, fmt::format("buffer '{}' is empty; World::cast_rays_on_device or cast_shapes_on_device fills it, until "
-                            "another query or the end of a step",
+                            "another query or a step",
                             row_of(buffer).name));
   if (hits < needed)
     refuse(row, fmt::format("buffer '{}' has the hits of {} queries, and the kernel may read those of {}",
@@ -154,7 +154,7 @@ void StepLaunches::run_of_module(Kernel kernel, const Values &values, const Slot
     const Buffer buffer = is_slot ? slots.at(slot++) : argument.buffer;
     if (is_slot) check_slot(row, argument, buffer, most, launcher_);
     if (holds_hits(buffer))
-      check_has_hits(row, buffer, hits_needed(row, most, plan_, point.has_value()), plan_, launcher_);
+      check_has_hits(row, buffer, hits_needed(row, plan_), plan_, launcher_);
     else check_is_filled(row, buffer, launcher_);
     if (argument.access != Access::in) check_may_write(row, buffer, point);
   }

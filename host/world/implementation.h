@@ -105,7 +105,7 @@ struct World::Implementation {
   bool candidates_overflow() const;
   void grow_pairs(uint32_t needed, bool &may_forget);
   void enlarge(uint32_t pairs);
-  void quarantine_from(uint32_t code);
+  void quarantine_from(uint32_t code, uint32_t status);
   void quarantine(uint32_t index, uint32_t stage);
 
   /* --- a world as bytes: snapshot.cpp ---------------------------------------------------------------------------- */
@@ -200,6 +200,7 @@ struct World::Implementation {
   void note_sleep(Recorder &recorder) const;
   void count_bodies(uint32_t awake);
   void count_awake_bodies();
+  [[noreturn]] void fail_for_pairs(const char *least, uint32_t needed) const;
   void sleepers_changed(bool sort_anew = true);
   void tell_sleepers(bool sort_anew = true);
   bool is_table_right() const { return plan.sleepers && !plan.other_sleepers; }
@@ -212,7 +213,7 @@ struct World::Implementation {
   void put_to_sleep();
   void take_fallen(const std::vector<uint32_t> &falls, const std::vector<uint32_t> &labels);
   void move_rows(const std::vector<uint32_t> &from, const std::vector<uint32_t> &to, bool carried);
-  void bring_forward(const std::vector<uint32_t> &woken);
+  uint32_t bring_forward(const std::vector<uint32_t> &woken);
   void return_pairs(const std::vector<SleepingIsland> &islands, uint32_t first);
   void wake(const std::set<uint32_t> &islands);
   void wake_all();

@@ -146,6 +146,7 @@ void World::Implementation::tell_sleepers(bool sort_anew)
   const uint32_t none = 0;
   if (sort_anew) memory.upload(Buffer::counts, &none, sizeof none, COUNT_SLEEPER_REACH * sizeof none);
   count_bodies(special.awake);
+  plan.hits = 0; /* rows of bodies have moved */
   plan.known[COUNT_COMMIT_BODIES] = special.awake;
   plan.known[COUNT_COMMIT_BODIES_PLUS_ONE] = special.awake + 1;
   plan.sleepers = !sleepers.empty();
@@ -285,13 +286,14 @@ void World::Implementation::move_rows(const std::vector<uint32_t> &from, const s
     if (carried || !is_carried(row_of(rows.from).lifetime)) move_body_rows(launcher, rows, COUNT_LENGTH, moved);
 }
 
-/* Moves bodies that lie behind those awake to the end of those awake; what lies there takes their places. */
-void World::Implementation::bring_forward(const std::vector<uint32_t> &woken)
+/* Moves bodies that lie behind those awake to the end of those awake; what lies there takes their places. Returns how
+ * many have moved: those listed in move_from and move_to. */
+uint32_t World::Implementation::bring_forward(const std::vector<uint32_t> &woken)
 {
   const auto first = special.awake, count = static_cast<uint32_t>(woken.size());
   if (first + count == bodies()) { /* all that sleep; they lie there already */
     special.awake = bodies();
-    return;
+    return 0;
   }
   const std::set<uint32_t> moving(woken.begin(), woken.end());
   std::vector<uint32_t> from, to, vacated;
@@ -306,7 +308,6 @@ void World::Implementation::bring_forward(const std::vector<uint32_t> &woken)
   to.insert(to.end(), vacated.begin(), vacated.end());
 
   move_rows(from, to, true);
-  if (is_table_right()) renumber_sleepers(launcher, first + count, static_cast<uint32_t>(from.size()));
   std::vector<uint32_t> moved;
   for (const uint32_t place : from) moved.push_back(special.order[place]);
   for (size_t k = 0; k < to.size(); ++k) {
@@ -314,6 +315,7 @@ void World::Implementation::bring_forward(const std::vector<uint32_t> &woken)
     index_of_body[moved[k]] = to[k];
   }
   special.awake += count;
+  return static_cast<uint32_t>(from.size());
 }
 
 namespace {
@@ -372,7 +374,9 @@ void World::Implementation::wake(const std::set<uint32_t> &islands)
   count_awake_bodies();
   size_t pairs = memory.read<uint32_t>(Buffer::cached_start, 1, special.awake).front();
   for (const uint32_t island : islands) pairs += sleepers.all().at(island).pairs.size();
-  if (pairs > plan.capacity_pairs) enlarge(static_cast<uint32_t>(std::min<size_t>(pairs + pairs / 4, most_pairs)));
+  if (pairs > settings.max_pairs) fail_for_pairs("", static_cast<uint32_t>(std::min<size_t>(pairs, most_pairs)));
+  if (pairs > plan.capacity_pairs)
+    enlarge(static_cast<uint32_t>(std::min<size_t>(pairs + pairs / 4, settings.max_pairs)));
   keep_order_of_events();
   std::vector<SleepingIsland> woken;
   std::vector<uint32_t> bodies_woken;
@@ -381,7 +385,8 @@ void World::Implementation::wake(const std::set<uint32_t> &islands)
     bodies_woken.insert(bodies_woken.end(), woken.back().bodies.begin(), woken.back().bodies.end());
   }
   const uint32_t first = special.awake;
-  bring_forward(bodies_woken);
+  const uint32_t moved = bring_forward(bodies_woken);
+  if (moved > 0 && is_table_right()) renumber_sleepers(launcher, special.awake, moved);
   return_pairs(woken, first);
   const std::vector<uint32_t> none(bodies_woken.size());
   memory.upload(Buffer::resting_steps, none.data(), none.size() * sizeof(uint32_t), first * sizeof(uint32_t));

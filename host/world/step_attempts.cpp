@@ -31,6 +31,7 @@ void World::Implementation::step(const StepLimits &limits)
 {
   check_lost();
   if (nothing_moves()) return sleep_on();
+  plan.hits = 0;
   launcher.set_step(statistics.steps);
   ++state;
   const Attempt before{plan, statistics, quarantined.size()};
@@ -203,7 +204,6 @@ void World::Implementation::accept()
   order_of_events.clear();
   moved_before.reset();
   ++statistics.steps;
-  plan.hits = 0;
   cached_pairs = plan.known[COUNT_PAIRS];
   plan.rounds = std::clamp<uint32_t>(plan.known[COUNT_ROUNDS] + 3, 4, most_rounds);
   plan.colors = std::min(plan.known[COUNT_COLORS] + 1, COLOR_LIMIT);
@@ -220,7 +220,7 @@ void World::Implementation::prepare_repetition(uint32_t status, bool &may_forget
   if (status & STATUS_COLORS) plan.colors = plan.known[COUNT_COLORS];
   if (status & STATUS_ISLANDS) plan.island_rounds = std::min(2 * plan.island_rounds, most_rounds);
   if (plan.colors > COLOR_LIMIT && !(status & STATUS_PAIRS)) enlarge(plan.capacity_pairs);
-  if (status & STATUS_NONFINITE) quarantine_from(plan.known[COUNT_NONFINITE]);
+  if (status & STATUS_NONFINITE) quarantine_from(plan.known[COUNT_NONFINITE], status);
   note_sorted();
   if (status & STATUS_WAKE) wake_touched();
   plan.known[COUNT_COMMIT_BODIES] = special.awake;
@@ -228,6 +228,13 @@ void World::Implementation::prepare_repetition(uint32_t status, bool &may_forget
   plan.known[COUNT_COMMIT_PAIRS] = plan.known[COUNT_PAIRS];
   plan.known[COUNT_COMMIT_CONSTRAINTS] = plan.known[COUNT_CONSTRAINTS];
   if (status & STATUS_PAIRS) grow_pairs(needed, may_forget); /* last, because it forgets the counts */
+}
+
+void World::Implementation::fail_for_pairs(const char *least, uint32_t needed) const
+{
+  throw std::runtime_error(
+      fmt::format("room for {}{} pairs is needed, and {} are the most (--max-pairs, Settings::max_pairs)", least,
+                  needed, settings.max_pairs));
 }
 
 /* If candidates did not fit, the number of pairs among them is unknown. */
@@ -242,9 +249,7 @@ void World::Implementation::grow_pairs(uint32_t needed, bool &may_forget)
 {
   if (needed > settings.max_pairs && std::exchange(may_forget, false)) return forget_kept(memory);
   if (needed > settings.max_pairs)
-    throw std::runtime_error(
-        fmt::format("room for {}{} pairs is needed, and {} are the most (--max-pairs, Settings::max_pairs)",
-                    needed == UINT32_MAX || candidates_overflow() ? "at least " : "", needed, settings.max_pairs));
+    fail_for_pairs(needed == UINT32_MAX || candidates_overflow() ? "at least " : "", needed);
   ++statistics.overflow;
   enlarge(static_cast<uint32_t>(std::min<uint64_t>(uint64_t{needed} + needed / 4, settings.max_pairs)));
   guess_counts();
@@ -276,10 +281,13 @@ void World::Implementation::enlarge(uint32_t pairs)
   }
 }
 
-/* code: COUNT_NONFINITE, which holds the first body that is not finite, and the stage. */
-void World::Implementation::quarantine_from(uint32_t code)
+/* code: COUNT_NONFINITE, which holds the first body that is not finite, and the stage. An attempt that lacked contacts
+ * says nothing of who is not finite after them; the repetition does, which has them. */
+void World::Implementation::quarantine_from(uint32_t code, uint32_t status)
 {
   const uint32_t first = code & (body_numbers - 1), stage = code / body_numbers;
+  const bool lacks_contacts = (status & (STATUS_PAIRS | STATUS_ROUNDS | STATUS_COLORS | STATUS_WAKE)) != 0;
+  if (lacks_contacts && stage > 0) return;
   quarantine(first, stage);
   if (taken_out.size() > taken_one_by_one)
     for (const uint32_t body : bodies_not_finite(memory, special.awake))
@@ -292,10 +300,12 @@ void World::Implementation::quarantine(uint32_t index, uint32_t stage)
   static const char *const stages[] = {"start", "solve", "integrate"};
   const uint32_t body = special.order[index];
   ring.prepare_changes(1);
-  quarantined.push_back({body, scene.bodies[body].name, stages[stage], statistics.steps});
-  ++statistics.nonfinite;
+  const bool is_out = slots.status()[body] == BodyStatus::quarantined; /* and was set to what is not finite again */
+  if (!is_out) quarantined.push_back({body, scene.bodies[body].name, stages[stage], statistics.steps});
+  if (!is_out) ++statistics.nonfinite;
   taken_out.emplace_back(index, tandem::read_body(memory, index)); /* first, so that it can be restored */
   quarantine_body(memory, index);
+  if (is_out) return;
   slots.quarantine(body);
   if (scene.bodies[body].type == BodyType::dynamic) --awake_dynamics; /* others may leave the range of numbers too */
   ring.note({body, std::nullopt, std::nullopt});

@@ -56,7 +56,8 @@ SHARED void finish_step_item(GLOBAL uint *counts, uint colors, uint i)
     counts[COUNT_PAIRS_NEEDED] = counts[COUNT_SLEEPER_PAIRS_NEEDED];
   if (counts[COUNT_PAIRS_NEEDED] > counts[CAPACITY_PAIRS]) status |= STATUS_PAIRS;
   if (counts[COUNT_UNCOLORED] != 0u) status |= STATUS_ROUNDS;
-  if (counts[COUNT_COLORS] > colors) status |= STATUS_COLORS;
+  if (counts[COUNT_COLORS] > colors || (colors > COLOR_LIMIT && counts[COUNT_COLORS] <= COLOR_LIMIT))
+    status |= STATUS_COLORS;
   if (counts[COUNT_NONFINITE] != INDEX_NONE) status |= STATUS_NONFINITE;
   if (counts[COUNT_ISLANDS_OPEN] != 0u) status |= STATUS_ISLANDS;
   if (counts[COUNT_TOUCHED_SLEEPERS] != 0u) status |= STATUS_WAKE;

@@ -153,9 +153,9 @@ public:
 
   /* Advances by settings.step. Throws std::runtime_error if a device fails, memory runs out (OutOfMemory: what was
    * requested, and for how many bodies and pairs) or more pairs are found than Settings::max_pairs. The state is then
-   * that before the step, and the world can be stepped again as if there had been no attempt. Until a step succeeds
-   * there are no events and no contact figures. Only if a device fails or memory runs out when the step has been made
-   * and bodies fall asleep, the world cannot go on: this and later calls say so, until restore(). */
+   * that before the step, but that islands which it had woken stay awake, and the world can be stepped again. Until a
+   * step succeeds there are no events and no contact figures. Only if a device fails or memory runs out when the step
+   * has been made and bodies fall asleep, the world cannot go on: this and later calls say so, until restore(). */
   void step() { step(StepLimits{}); }
   /* The same with a budget. Throws LimitExceeded, as soon as the step knows that it needs more, and says what. The
    * state is then that before the step. What the limits do not exceed has the same bits as without them. */
@@ -328,7 +328,7 @@ public:
   /* Cast as by the functions above, and leave the hits where the kernel runs, for kernels of modules: nothing is read
    * back. Row i of the buffers query_hit, query_point and query_hit_body (shared/buffers.def) is the hit of query i:
    * normal and fraction; the point, from the start of the query; the index of the body in the scene, or no_body. They
-   * hold until the next query, the end of the next step, or a call that lays buffers out anew or starts a recording; a
+   * hold until the next query or step, or a call that wakes bodies, lays buffers out anew or starts a recording; a
    * kernel that reads them afterwards is refused (docs/your-own-kernel.md). */
   void cast_rays_on_device(std::span<const Ray> rays);
   void cast_shapes_on_device(const Shape &shape, std::span<const Pose> poses, std::span<const Vec3> displacements,
