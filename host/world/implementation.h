@@ -200,7 +200,6 @@ struct World::Implementation {
   void note_sleep(Recorder &recorder) const;
   void count_bodies(uint32_t awake);
   void count_awake_bodies();
-  [[noreturn]] void fail_for_pairs(const char *least, uint32_t needed) const;
   void sleepers_changed(bool sort_anew = true);
   void tell_sleepers(bool sort_anew = true);
   bool is_table_right() const { return plan.sleepers && !plan.other_sleepers; }

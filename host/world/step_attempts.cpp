@@ -230,13 +230,6 @@ void World::Implementation::prepare_repetition(uint32_t status, bool &may_forget
   if (status & STATUS_PAIRS) grow_pairs(needed, may_forget); /* last, because it forgets the counts */
 }
 
-void World::Implementation::fail_for_pairs(const char *least, uint32_t needed) const
-{
-  throw std::runtime_error(
-      fmt::format("room for {}{} pairs is needed, and {} are the most (--max-pairs, Settings::max_pairs)", least,
-                  needed, settings.max_pairs));
-}
-
 /* If candidates did not fit, the number of pairs among them is unknown. */
 bool World::Implementation::candidates_overflow() const
 {
@@ -249,7 +242,9 @@ void World::Implementation::grow_pairs(uint32_t needed, bool &may_forget)
 {
   if (needed > settings.max_pairs && std::exchange(may_forget, false)) return forget_kept(memory);
   if (needed > settings.max_pairs)
-    fail_for_pairs(needed == UINT32_MAX || candidates_overflow() ? "at least " : "", needed);
+    throw std::runtime_error(
+        fmt::format("room for {}{} pairs is needed, and {} are the most (--max-pairs, Settings::max_pairs)",
+                    needed == UINT32_MAX || candidates_overflow() ? "at least " : "", needed, settings.max_pairs));
   ++statistics.overflow;
   enlarge(static_cast<uint32_t>(std::min<uint64_t>(uint64_t{needed} + needed / 4, settings.max_pairs)));
   guess_counts();

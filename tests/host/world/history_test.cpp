@@ -97,21 +97,3 @@ TEST_CASE("a body in quarantine that is set to what is not finite again is there
   require_goes_on_as_restored(world, 5);
   CHECK(world.bodies()[1].position[1] < height);
 }
-
-TEST_CASE("islands that wake have no more pairs than the settings allow")
-{
-  Scene scene = on_a_floor({box_shape(0.5f, 0.5f, 0.5f)});
-  for (int k = 0; k < 60; ++k) scene.bodies.push_back(body_at({3.0 * k, 0.5, 0}, 1));
-  Settings settings = sleepy();
-  settings.max_pairs = 60;
-  World world(scene, settings, {"serial", {}});
-  for (int k = 0; k < 60; ++k) world.step();
-  REQUIRE(world.statistics().asleep == 60);
-  for (int k = 0; k < 30; ++k) world.create_body(body_at({3.0 * k, 0.5, 30}, 1));
-  world.step();
-  const uint64_t hash = world.state_hash();
-  CHECK_THROWS_WITH(world.wake_bodies(world.body_ids()), Catch::Matchers::ContainsSubstring("60 are the most"));
-  CHECK(world.state_hash() == hash);
-  world.step();
-  CHECK(world.statistics().asleep == 60);
-}
