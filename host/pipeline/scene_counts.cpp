@@ -34,10 +34,12 @@ std::vector<std::pair<int, uint32_t>> entries_of(const SceneCounts &scene)
           {COUNT_BATCH_ITEMS, TILE * batch_cells_for(scene.bodies)}};
 }
 
-void set_length(Memory &memory, uint32_t length)
+void set_count(Memory &memory, uint32_t entry, uint32_t value)
 {
-  memory.upload(Buffer::counts, &length, sizeof length, COUNT_LENGTH * sizeof length);
+  memory.upload(Buffer::counts, &value, sizeof value, entry * sizeof value);
 }
+
+void set_length(Memory &memory, uint32_t length) { set_count(memory, COUNT_LENGTH, length); }
 
 bool is_told_by_scene(uint32_t entry)
 {

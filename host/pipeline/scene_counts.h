@@ -19,9 +19,10 @@ struct SceneCounts {
 
 /* The entries of shared/counts.h with their values. */
 std::vector<std::pair<int, uint32_t>> entries_of(const SceneCounts &scene);
-/* Sets COUNT_LENGTH, by which launches run over a list that the host has made. */
-void set_length(Memory &memory, uint32_t length);
 /* Whether an entry is one of those. */
 bool is_told_by_scene(uint32_t entry);
+void set_count(Memory &memory, uint32_t entry, uint32_t value);
+/* Sets COUNT_LENGTH, by which launches run over a list that the host has made. */
+void set_length(Memory &memory, uint32_t length);
 
 } // namespace tandem

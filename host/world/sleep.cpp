@@ -96,7 +96,7 @@ void World::Implementation::count_bodies(uint32_t awake)
 {
   scene_entries = entries_of({awake, special.unbounded, special.large, bodies() - awake});
   for (const auto &[entry, value] : scene_entries) {
-    memory.upload(Buffer::counts, &value, sizeof value, static_cast<size_t>(entry) * sizeof value);
+    set_count(memory, static_cast<uint32_t>(entry), value);
     plan.known[static_cast<size_t>(entry)] = value;
   }
   counted_bodies = awake;
@@ -137,14 +137,12 @@ void World::Implementation::append_fallen(uint32_t before)
   append_sleepers(step, fallen);
   launches_ended = true;
   listed_sleepers += fallen;
-  memory.upload(Buffer::counts, &listed_sleepers, sizeof listed_sleepers,
-                COUNT_LISTED_SLEEPERS * sizeof listed_sleepers);
+  set_count(memory, COUNT_LISTED_SLEEPERS, listed_sleepers);
 }
 
 void World::Implementation::tell_sleepers(bool sort_anew)
 {
-  const uint32_t none = 0;
-  if (sort_anew) memory.upload(Buffer::counts, &none, sizeof none, COUNT_SLEEPER_REACH * sizeof none);
+  if (sort_anew) set_count(memory, COUNT_SLEEPER_REACH, 0);
   count_bodies(special.awake);
   plan.hits = 0; /* rows of bodies have moved */
   plan.known[COUNT_COMMIT_BODIES] = special.awake;

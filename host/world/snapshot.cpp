@@ -243,11 +243,17 @@ void get_shapes(ByteReader &reader, SnapshotContents &contents)
   check_shapes(reader, contents);
 }
 
+std::vector<uint32_t> words_in(std::span<const std::byte> bytes)
+{
+  std::vector<uint32_t> words(bytes.size() / sizeof(uint32_t));
+  if (!words.empty()) std::memcpy(words.data(), bytes.data(), words.size() * sizeof(uint32_t));
+  return words;
+}
+
 /* The starts of the cached pairs of each body: kernels index the cache with them. Returns the number of pairs. */
 uint32_t check_starts(const ByteReader &reader, std::span<const std::byte> bytes)
 {
-  std::vector<uint32_t> starts(bytes.size() / sizeof(uint32_t));
-  if (!starts.empty()) std::memcpy(starts.data(), bytes.data(), starts.size() * sizeof(uint32_t));
+  const std::vector<uint32_t> starts = words_in(bytes);
   if (starts.empty() || starts.front() != 0 || !std::is_sorted(starts.begin(), starts.end()) ||
       starts.back() > most_pairs)
     reader.fail("the starts of the cached pairs do not increase from 0");
@@ -257,11 +263,8 @@ uint32_t check_starts(const ByteReader &reader, std::span<const std::byte> bytes
 /* The second bodies of the cached pairs. */
 void check_partners(const ByteReader &reader, std::span<const std::byte> bytes, size_t bodies)
 {
-  for (size_t at = 0; at + sizeof(uint32_t) <= bytes.size(); at += sizeof(uint32_t)) {
-    uint32_t body;
-    std::memcpy(&body, bytes.data() + at, sizeof body);
+  for (const uint32_t body : words_in(bytes))
     if (body >= bodies) reader.fail(fmt::format("a cached pair has body {}, of {} bodies", body, bodies));
-  }
 }
 
 size_t item_bytes(Buffer buffer) { return row_of(buffer).per_item * size_of(row_of(buffer).element); }

@@ -9,6 +9,7 @@
 
 #include "host/base/out_of_memory.h"
 #include "host/pipeline/broadphases/broadphase.h"
+#include "host/pipeline/scene_counts.h"
 #include "host/world/batch_fault.h"
 #include "host/world/implementation.h"
 #include "shared/broadphase/candidate_limits.h"
@@ -30,8 +31,8 @@ constexpr uint32_t most_rounds = 1 << 20;
 void World::Implementation::step(const StepLimits &limits)
 {
   check_lost();
-  if (nothing_moves()) return sleep_on();
   plan.hits = 0;
+  if (nothing_moves()) return sleep_on();
   launcher.set_step(statistics.steps);
   ++state;
   const Attempt before{plan, statistics, quarantined.size()};
@@ -75,7 +76,6 @@ void World::Implementation::check_lost() const
 void World::Implementation::sleep_on()
 {
   ++statistics.steps;
-  plan.hits = 0;
   idle = true;
   sleep_events.clear();
   keep_state_of_step();
@@ -266,7 +266,7 @@ void World::Implementation::enlarge(uint32_t pairs)
     place_again();
     forget_kept(memory);
     buffers.make_ready(sizes());
-    memory.upload(Buffer::counts, &pairs, sizeof pairs, CAPACITY_PAIRS * sizeof pairs);
+    set_count(memory, CAPACITY_PAIRS, pairs);
   } catch (const OutOfMemory &error) {
     give_up();
     throw OutOfMemory(fmt::format("room for {} pairs and {} colours is needed: {}", pairs, plan.colors, error.what()));

@@ -4,6 +4,7 @@
 #include <bit>
 
 #include "host/pipeline/primitives.h"
+#include "host/pipeline/scene_counts.h"
 #include "host/pipeline/setting_rows.h"
 #include "host/runtime/memory.h"
 
@@ -51,9 +52,7 @@ const BroadphaseRow &row_of(Broadphase broadphase) { return row_in(broadphase_ro
 
 void forget_kept(Memory &memory)
 {
-  const uint32_t none = 0;
-  for (const uint32_t entry : {COUNT_KEPT, COUNT_HIERARCHY_KEPT})
-    memory.upload(Buffer::counts, &none, sizeof none, entry * sizeof none);
+  for (const uint32_t entry : {COUNT_KEPT, COUNT_HIERARCHY_KEPT}) set_count(memory, entry, 0);
 }
 
 void find_extent(StepLaunches &step, bool hybrid)
