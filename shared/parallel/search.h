@@ -20,6 +20,21 @@ SHARED uint lower_bound_of(GLOBAL const uint *sorted, uint n, uint value)
   return first;
 }
 
+/* The same for several values at once. Each step of a search waits for memory, and these wait together. */
+#define SEARCHES_AT_ONCE 10u
+SHARED void lower_bounds_of(GLOBAL const uint *sorted, uint n, const uint *values, uint *places)
+{
+  uint first[SEARCHES_AT_ONCE];
+  for (uint k = 0u; k < SEARCHES_AT_ONCE; ++k) first[k] = 0u;
+  for (uint count = n; count > 0u;) { /* the lists left to search start at `first` and are equally long */
+    const uint skipped = (count + 1u) / 2u;
+    for (uint k = 0u; k < SEARCHES_AT_ONCE; ++k)
+      if (sorted[first[k] + skipped - 1u] < values[k]) first[k] += skipped;
+    count -= skipped;
+  }
+  for (uint k = 0u; k < SEARCHES_AT_ONCE; ++k) places[k] = first[k];
+}
+
 /* The first place whose value is greater than `value`. */
 SHARED uint upper_bound_of(GLOBAL const uint *sorted, uint n, uint value)
 {

@@ -35,11 +35,19 @@ SHARED sleeper_list list_of_sleepers(read_sleepers table, GLOBAL const uint *cou
   return list;
 }
 
+/* Those who woke have left empty places, most of which lie side by side. */
+#define PLACES_AT_ONCE 4u
+SHARED mask are_empty(GLOBAL const uint *place)
+{
+  return (place[0] & place[1] & place[2] & place[3]) == INDEX_NONE;
+}
+
 FORCE_INLINE uint find_among_sleepers(const pair_search *search, const sleeper_list *sleepers, uint first, uint end,
                                       const find_list *list, uint at)
 {
   for (uint k = first; k < end; ++k) {
-    uint other = sleepers->table.body[k];
+    while (k + PLACES_AT_ONCE <= end && are_empty(sleepers->table.body + k)) k += PLACES_AT_ONCE;
+    uint other = k < end ? sleepers->table.body[k] : INDEX_NONE;
     if (other != INDEX_NONE && bounds_overlap(search->box, load_bounds(sleepers->table.bounds, k)) &&
         may_meet(search, other))
       at = add_find(list, at, search->body, other);
@@ -47,23 +55,53 @@ FORCE_INLINE uint find_among_sleepers(const pair_search *search, const sleeper_l
   return at;
 }
 
+/* The cells along x between two others. */
+typedef struct {
+  int low, high, y, z;
+} cell_row;
+
 /* Neighbours along x have keys that follow each other, unless the coordinate wraps around between them: only then is
- * the next cell searched for. */
+ * the next cell searched for. first: the place of the first cell. */
+FORCE_INLINE uint find_in_row(const pair_search *search, const sleeper_list *sleepers, cell_row row, uint first,
+                              const find_list *list, uint at)
+{
+  uint end = first, after = key_of_cell(row.low, row.y, row.z); /* the key of the cell that starts at `end` */
+  for (int x = row.low; x <= row.high; ++x) {
+    uint key = key_of_cell(x, row.y, row.z);
+    first = key == after ? end : lower_bound_of(sleepers->table.key, sleepers->sorted, key);
+    end = first;
+    while (end < sleepers->sorted && sleepers->table.key[end] == key) ++end;
+    at = find_among_sleepers(search, sleepers, first, end, list, at);
+    after = key + 1u;
+  }
+  return at;
+}
+
+SHARED cell_row row_at(const int low[3], const int high[3], uint row)
+{
+  uint wide = (uint)(high[1] - low[1]) + 1u;
+  cell_row result = {low[0], high[0], low[1] + (int)(row % wide), low[2] + (int)(row / wide)};
+  return result;
+}
+
+/* A body no larger than the sleepers meets three rows by three, which one search finds together with those that are
+ * large. */
 FORCE_INLINE uint find_in_sleeper_cells(const pair_search *search, const sleeper_list *sleepers, const int low[3],
                                         const int high[3], const find_list *list, uint at)
 {
-  for (int z = low[2]; z <= high[2]; ++z)
-    for (int y = low[1]; y <= high[1]; ++y) {
-      uint end = 0u, after = INDEX_NONE; /* after: the key that follows the last cell's */
-      for (int x = low[0]; x <= high[0]; ++x) {
-        uint key = key_of_cell(x, y, z),
-             first = key == after ? end : lower_bound_of(sleepers->table.key, sleepers->sorted, key);
-        end = first;
-        while (end < sleepers->sorted && sleepers->table.key[end] == key) ++end;
-        at = find_among_sleepers(search, sleepers, first, end, list, at);
-        after = key + 1u;
-      }
+  uint rows = ((uint)(high[1] - low[1]) + 1u) * ((uint)(high[2] - low[2]) + 1u);
+  for (uint first_row = 0u; first_row <= rows; first_row += SEARCHES_AT_ONCE) {
+    uint keys[SEARCHES_AT_ONCE], places[SEARCHES_AT_ONCE];
+    for (uint k = 0u; k < SEARCHES_AT_ONCE; ++k) {
+      cell_row row = row_at(low, high, first_row + k);
+      keys[k] = first_row + k < rows ? key_of_cell(row.low, row.y, row.z) : LARGE_SLEEPER;
     }
+    lower_bounds_of(sleepers->table.key, sleepers->sorted, keys, places);
+    for (uint k = 0u; k < SEARCHES_AT_ONCE && first_row + k < rows; ++k)
+      at = find_in_row(search, sleepers, row_at(low, high, first_row + k), places[k], list, at);
+    if (rows - first_row < SEARCHES_AT_ONCE)
+      at = find_among_sleepers(search, sleepers, places[rows - first_row], sleepers->count, list, at);
+  }
   return at;
 }
 
@@ -82,9 +120,7 @@ FORCE_INLINE uint find_sleepers(const pair_search *search, const sleeper_list *s
                  sleeper_cell_along(upper.z + reach, reach)};
   if (covers_many_cells(low[0], high[0]) || covers_many_cells(low[1], high[1]) || covers_many_cells(low[2], high[2]))
     return find_among_sleepers(search, sleepers, 0u, sleepers->count, list, at);
-  at = find_in_sleeper_cells(search, sleepers, low, high, list, at);
-  uint first = lower_bound_of(sleepers->table.key, sleepers->sorted, LARGE_SLEEPER);
-  return find_among_sleepers(search, sleepers, first, sleepers->count, list, at);
+  return find_in_sleeper_cells(search, sleepers, low, high, list, at);
 }
 
 /* Fixed bodies wake nobody, and kinematic ones do while they move. */
