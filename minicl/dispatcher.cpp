@@ -149,6 +149,7 @@ public:
     for (size_t i = 0; i < bound.size(); ++i)
       arguments_.push_back(row.arguments[i].kind == Argument::Kind::value ? const_cast<uint32_t *>(&bound[i].value)
                                                                           : bound[i].handle);
+    ++launches;
     const uint32_t first = count[launch.first], last = count[launch.last];
     if (row.execution == Execution::group) run_groups(launch.kernel, arguments_.data(), units_of(last - first, TILE));
     else if (last > first) run_items(launch.kernel, arguments_.data(), first, last);

@@ -4,10 +4,17 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include "host/runtime/interface/debug.h"
 
 namespace tandem {
+namespace {
+
+/* A device runs one series while the host collects the next. */
+constexpr size_t launches_of_series = 64;
+
+} // namespace
 
 void PlacedLauncher::note_written(Buffer buffer)
 {
@@ -18,45 +25,84 @@ void PlacedLauncher::note_written(Buffer buffer)
 /* Kernels write the rows of bodies that are awake; where others sleep, their rows are part of the contents. */
 Access PlacedLauncher::access_of(Buffer buffer, Access access) const
 {
+  if (access != Access::out || !keeps_sleepers_) return access;
   const BufferRow &row = row_of(buffer);
-  const bool partial = keeps_sleepers_ && row.lifetime == Lifetime::STATE && row.capacity == Capacity::BODIES;
-  return partial && access == Access::out ? Access::inout : access;
+  return row.lifetime == Lifetime::STATE && row.capacity == Capacity::BODIES ? Access::inout : access;
+}
+
+void PlacedLauncher::bind(const Launch &launch, Storage &storage, std::vector<BoundArgument> &bound)
+{
+  const KernelRow &row = row_of(launch.kernel);
+  bound.clear();
+  size_t slot = 0, value = 0;
+  for (const Argument &argument : row.arguments) {
+    if (argument.kind == Argument::Kind::value) {
+      bound.push_back({nullptr, launch.values.at(value++)});
+      continue;
+    }
+    const Buffer buffer = argument.kind == Argument::Kind::slot ? launch.slots.at(slot++) : argument.buffer;
+    if (argument.access != Access::in) note_written(buffer);
+    bound.push_back({memory_.acquire(buffer, storage, access_of(buffer, argument.access)), 0});
+  }
+  if (slot != launch.slots.size() || value != launch.values.size())
+    throw std::logic_error(std::string("launch of ") + row.name + " does not fit its row in kernels.def");
 }
 
 void PlacedLauncher::launch(const Launch &launch)
 {
   step_of_launch = step_;
   Backend &backend = choice_(launch.kernel);
-  const KernelRow &row = row_of(launch.kernel);
-  if (row.execution == Execution::host) {
+  if (joins_series(launch, backend)) return collect(launch, backend);
+  run_collected();
+  if (row_of(launch.kernel).execution == Execution::host) {
     backend.run_cpu_kernel(launch, memory_);
-    if (observer_) observer_(launch);
-    return;
+  } else {
+    bind(launch, backend.storage(), bound_);
+    backend.run(launch, bound_, memory_.acquire(Buffer::counts, backend.storage(), Access::in));
   }
-  bound_.clear();
-  size_t slot = 0, value = 0;
-  for (const Argument &argument : row.arguments) {
-    switch (argument.kind) {
-    case Argument::Kind::buffer:
-      bound_.push_back(
-          {memory_.acquire(argument.buffer, backend.storage(), access_of(argument.buffer, argument.access)), 0});
-      if (argument.access != Access::in) note_written(argument.buffer);
-      break;
-    case Argument::Kind::slot:
-      if (argument.access != Access::in) note_written(launch.slots.at(slot));
-      bound_.push_back(
-          {memory_.acquire(launch.slots.at(slot), backend.storage(), access_of(launch.slots.at(slot), argument.access)),
-           0});
-      ++slot;
-      break;
-    case Argument::Kind::value: bound_.push_back({nullptr, launch.values.at(value++)}); break;
-    }
-  }
-  if (slot != launch.slots.size() || value != launch.values.size())
-    throw std::logic_error(std::string("launch of ") + row.name + " does not fit its row in kernels.def");
-  void *counts = memory_.acquire(Buffer::counts, backend.storage(), Access::in);
-  backend.run(launch, bound_, counts);
   if (observer_) observer_(launch);
+}
+
+void PlacedLauncher::launch_in_series(std::span<const uint32_t> known, const std::function<void()> &launches)
+{
+  known_ = known;
+  try {
+    launches();
+    run_collected();
+  } catch (...) {
+    known_ = {};
+    collected_count_ = 0;
+    throw;
+  }
+  known_ = {};
+}
+
+/* An observer sees the effect of each launch before the next one. */
+bool PlacedLauncher::joins_series(const Launch &launch, const Backend &backend) const
+{
+  const uint32_t most = backend.most_items_of_series();
+  if (known_.empty() || most == 0 || observer_ || index_of(launch.kernel) >= kernel_count) return false;
+  return row_of(launch.kernel).execution != Execution::host && known_[launch.last] - known_[launch.first] <= most;
+}
+
+/* What other backends have to do first is done before buffers move. */
+void PlacedLauncher::collect(const Launch &launch, Backend &backend)
+{
+  if (collecting_backend_ != &backend) run_collected();
+  collecting_backend_ = &backend;
+  if (collected_count_ == collected_.size()) collected_.emplace_back();
+  BoundLaunch &bound = collected_[collected_count_];
+  bound.launch = launch;
+  bind(launch, backend.storage(), bound.arguments);
+  if (++collected_count_ == launches_of_series) run_collected();
+}
+
+void PlacedLauncher::run_collected()
+{
+  if (collected_count_ == 0) return;
+  Backend &backend = *collecting_backend_;
+  const std::span<const BoundLaunch> series(collected_.data(), std::exchange(collected_count_, 0));
+  backend.run_series(series, memory_.acquire(Buffer::counts, backend.storage(), Access::in));
 }
 
 } // namespace tandem

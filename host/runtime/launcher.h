@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include <tandem/export.h>
@@ -35,9 +36,13 @@ public:
   void launch(const Launch &launch) override;
   void begin_commit() override
   {
+    run_collected();
     written_.clear();
     if (on_commit_) on_commit_();
   }
+  /* Calls a function that launches kernels and does nothing else to the memory. Those of few items, as far as `known`
+   * tells, which holds an estimate of each entry of counts, reach their backend in series. */
+  void launch_in_series(std::span<const uint32_t> known, const std::function<void()> &launches);
   size_t bytes(Buffer buffer) const override { return memory_.bytes(buffer); }
   /* Buffers of modules other than the pipeline that launches have written since the last begin_commit. */
   const std::vector<Buffer> &written_by_modules() const { return written_; }
@@ -57,7 +62,15 @@ private:
   bool keeps_sleepers_ = false;
   void note_written(Buffer buffer);
   Access access_of(Buffer buffer, Access access) const;
+  void bind(const Launch &launch, Storage &storage, std::vector<BoundArgument> &bound);
+  bool joins_series(const Launch &launch, const Backend &backend) const;
+  void collect(const Launch &launch, Backend &backend);
+  void run_collected();
 
+  std::span<const uint32_t> known_;    /* empty outside of launch_in_series */
+  std::vector<BoundLaunch> collected_; /* the first collected_count_ wait for collecting_backend_ */
+  size_t collected_count_ = 0;
+  Backend *collecting_backend_ = nullptr;
   std::vector<BoundArgument> bound_;
   std::vector<Buffer> written_;
 };

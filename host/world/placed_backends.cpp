@@ -136,4 +136,11 @@ double PlacedBackends::build_milliseconds() const
   return total;
 }
 
+uint64_t PlacedBackends::launches() const
+{
+  uint64_t total = 0;
+  for (const auto &[text, backend] : backends_) total += backend->launches;
+  return total;
+}
+
 } // namespace tandem

@@ -41,6 +41,7 @@ public:
   void set_profiling(bool on);
   std::vector<KernelTime> take_kernel_times();
   double build_milliseconds() const;
+  uint64_t launches() const;
 
 private:
   void assign(const Placement &placement, const std::vector<Kernel> &kernels, bool in_background);

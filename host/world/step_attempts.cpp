@@ -106,7 +106,7 @@ void World::Implementation::run_until_whole(const StepLimits &limits)
   bool may_forget = launches_ended && plan.known[COUNT_KEPT] != 0;
   for (size_t repetition = 0; repetition < most_repetitions + taken_one_by_one; ++repetition) {
     begin_launches();
-    launch_step(launcher, plan, settings);
+    launcher.launch_in_series(plan.known, [this] { launch_step(launcher, plan, settings); });
     memory.download(Buffer::counts, plan.known.data(), sizeof plan.known);
     launches_ended = true;
     check_limits(limits);

@@ -577,5 +577,11 @@ void World::finish()
 void World::set_profiling(bool on) { implementation_->backends.set_profiling(on); }
 std::vector<KernelTime> World::take_kernel_times() { return implementation_->backends.take_kernel_times(); }
 double World::build_milliseconds() const { return implementation_->backends.build_milliseconds(); }
+uint64_t World::launches() const { return implementation_->backends.launches(); }
+
+void World::prepare_kernels()
+{
+  for (const auto &[text, backend] : implementation_->backends.all()) backend->build_series();
+}
 
 } // namespace tandem

@@ -37,10 +37,7 @@ SHARED sleeper_list list_of_sleepers(read_sleepers table, GLOBAL const uint *cou
 
 /* Those who woke have left empty places, most of which lie side by side. */
 #define PLACES_AT_ONCE 4u
-SHARED mask are_empty(GLOBAL const uint *place)
-{
-  return (place[0] & place[1] & place[2] & place[3]) == INDEX_NONE;
-}
+SHARED mask are_empty(GLOBAL const uint *place) { return (place[0] & place[1] & place[2] & place[3]) == INDEX_NONE; }
 
 FORCE_INLINE uint find_among_sleepers(const pair_search *search, const sleeper_list *sleepers, uint first, uint end,
                                       const find_list *list, uint at)

@@ -82,6 +82,9 @@ SleepTimes bench_sleeping(const std::string &backend, uint64_t bodies, bool allo
   times.awake = spread_or_none(steps_until_asleep(world, times.bodies));
   std::vector<double> asleep, island, wake, fall, read;
   for (int k = 0; k < idle_steps; ++k) asleep.push_back(wait_for(world, [&] { world.step(); }));
+  world.wake_body(world.id_of(1));
+  steps_until_asleep(world, island_bodies);
+  world.prepare_kernels();
   for (int k = 0; k < wakes; ++k) {
     wake.push_back(wait_for(world, [&] {
       world.wake_body(world.id_of(1));

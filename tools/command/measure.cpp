@@ -62,6 +62,13 @@ double profiled_step(World &world, StageTimes &stages)
   return milliseconds;
 }
 
+/* Kernels that a long run builds while it runs are built before. */
+void prepare_for_timing(World &world)
+{
+  world.prepare_kernels();
+  world.finish();
+}
+
 } // namespace
 
 double timed_step(World &world)
@@ -89,13 +96,19 @@ Measurement measure(World &world, uint64_t steps, const std::function<void(uint6
   StageTimes stages;
   Measurement result;
   for (uint64_t k = 0; k < steps; ++k) {
+    if (k == steps / 2) prepare_for_timing(world);
+    const uint64_t launches = world.launches();
     const bool profiled = is_profiled(k, steps);
     const double milliseconds = profiled ? profiled_step(world, stages) : timed_step(world);
     result.profiled_steps += profiled;
-    if (k >= steps / 2 && (!profiled || steps - steps / 2 == 1)) timed.push_back(milliseconds);
+    if (k >= steps / 2 && (!profiled || steps - steps / 2 == 1)) {
+      timed.push_back(milliseconds);
+      result.launches += static_cast<double>(world.launches() - launches);
+    }
     if (after_step) after_step(k + 1);
   }
   result.timed_steps = timed.size();
+  result.launches /= static_cast<double>(std::max<size_t>(timed.size(), 1));
   result.step_milliseconds = spread_of(timed);
   result.stages = stages.per_step(result.profiled_steps);
   return result;

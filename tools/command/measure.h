@@ -32,6 +32,7 @@ struct Measurement {
   Spread step_milliseconds;
   std::vector<StageTime> stages; /* in pipeline order */
   uint64_t timed_steps = 0, profiled_steps = 0;
+  double launches = 0; /* a timed step, on average */
 };
 
 /* The time of one step in ms; the clock is read with all devices finished. */

@@ -166,7 +166,9 @@ void write_program(const Program &program, const std::vector<embed::KernelRow> &
     if (row.stage == program.stage && row.execution != "HOST") {
       const std::string entry = embed::entry_of(row, list);
       readable << '\n' << entry;
-      out << "{\"" << row.name << "\",\n" << literal(entry) << "},\n";
+      out << "{\"" << row.name << "\",\n"
+          << literal(entry) << ",\n"
+          << literal(embed::call_of(row)) << ",\n\"" << row.local_words << "\"},\n";
       ++entries;
     }
   out << "}},\n";

@@ -30,13 +30,28 @@ std::string declared(const Parameter &parameter)
   return parameter.type + " " + parameter.name;
 }
 
-std::string passed(const FunctionArgument &argument)
+/* An argument of the shared function, with this text for each of its parameters. */
+std::string passed(const FunctionArgument &argument, const std::vector<std::string> &texts)
 {
-  if (argument.group_type.empty()) return argument.parameters.front().name;
+  if (argument.group_type.empty()) return texts.front();
   std::string text = "(" + argument.group_type + "){";
   for (size_t i = 0; i < argument.members.size(); ++i)
-    text += (i ? ", ." : ".") + argument.members[i] + " = " + argument.parameters[i].name;
+    text += (i ? ", ." : ".") + argument.members[i] + " = " + texts[i];
   return text + "}";
+}
+
+std::vector<std::string> names_of(const std::vector<Parameter> &parameters)
+{
+  std::vector<std::string> names;
+  for (const Parameter &parameter : parameters) names.push_back(parameter.name);
+  return names;
+}
+
+std::string numbered(const Parameter &parameter, size_t number)
+{
+  const std::string place = "$" + std::to_string(number);
+  if (parameter.kind == Parameter::Kind::value) return place;
+  return (parameter.kind == Parameter::Kind::read ? "(__global const " : "(__global ") + parameter.type + " *)" + place;
 }
 
 } // namespace
@@ -46,7 +61,7 @@ std::string entry_of(const KernelRow &row, const std::string &list)
   std::vector<std::string> parameters, arguments;
   for (const FunctionArgument &argument : row.arguments) {
     for (const Parameter &parameter : argument.parameters) parameters.push_back(declared(parameter));
-    arguments.push_back(passed(argument));
+    arguments.push_back(passed(argument, names_of(argument.parameters)));
   }
   parameters.push_back("RANGE");
   const bool is_group = row.execution == "GROUP";
@@ -59,6 +74,19 @@ std::string entry_of(const KernelRow &row, const std::string &list)
   else text += "  FOR_EACH_IN_RANGE(i)\n";
   text += wrapped("  " + row.name + (is_group ? "_group(" : "_item("), arguments, ");\n");
   return text + (is_group ? "  END_GROUP;\n}\n" : "}\n");
+}
+
+std::string call_of(const KernelRow &row)
+{
+  const bool is_group = row.execution == "GROUP";
+  std::string text = row.name + (is_group ? "_group(" : "_item(");
+  size_t number = 0;
+  for (const FunctionArgument &argument : row.arguments) {
+    std::vector<std::string> texts;
+    for (const Parameter &parameter : argument.parameters) texts.push_back(numbered(parameter, number++));
+    text += passed(argument, texts) + ", ";
+  }
+  return text + (is_group ? "local_memory, group)" : "i)");
 }
 
 } // namespace embed

@@ -171,6 +171,7 @@ Json outcome_json(const Outcome &outcome, World &world, const Placement &placeme
           {"memory_bytes", world.memory().total_bytes()},
           {"kernels_built", world.kernels().size()},
           {"build_ms", world.build_milliseconds()},
+          {"launches", outcome.measurement.launches},
           {"hash", hash_text(outcome.hash)},
           {"body_hash", hash_text(outcome.body_hash)}};
 }
@@ -204,6 +205,7 @@ std::string facts_table(const Outcome &outcome, World &world)
   table.add({"kinetic energy", fmt::format("{:.6g} J", statistics.kinetic_energy)});
   table.add({"memory", bytes_text(world.memory().total_bytes())});
   table.add({"kernels", fmt::format("{}, built in {:.0f} ms", world.kernels().size(), world.build_milliseconds())});
+  table.add({"launches", fmt::format("{:.0f} a step", outcome.measurement.launches)});
   table.add({"hash", fmt::format("{} (bodies alone {})", hash_text(outcome.hash), hash_text(outcome.body_hash))});
   if (world.settings().check)
     table.add(

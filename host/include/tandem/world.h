@@ -366,6 +366,12 @@ public:
   /* Waits for the devices, so that a clock read afterwards includes their work, and for kernels that are being built
    * for them (Placement::build_in_background). */
   void finish();
+  /* Builds at once what a GPU would build in the background after some hundred steps: a program that makes one launch
+   * of many that have few items each (docs/pipeline.md, "Launches"). The steps so far tell which, so call it after some
+   * of them, while nobody waits for the next. Results are the same without it. If the driver fails to build it, throws
+   * std::runtime_error and changes nothing. */
+  void prepare_kernels();
+  /* Measures each kernel, which therefore has launches of its own. */
   void set_profiling(bool on);
   std::vector<KernelTime> take_kernel_times();
 
@@ -375,6 +381,7 @@ public:
   Memory &memory();
   Backend &backend_of(Kernel kernel);
   double build_milliseconds() const;
+  uint64_t launches() const; /* of kernels, made so far by all backends */
 
   /* Called after every launch of a step, in order; the comparison of backends uses it. */
   using Observer = std::function<void(const Launch &)>;

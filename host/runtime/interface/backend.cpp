@@ -11,4 +11,9 @@ void Backend::run_cpu_kernel(const Launch &launch, Memory &)
                          name());
 }
 
+void Backend::run_series(std::span<const BoundLaunch> series, void *counts)
+{
+  for (const BoundLaunch &bound : series) run(bound.launch, bound.arguments, counts);
+}
+
 } // namespace tandem

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,12 @@ struct BoundArgument {
   uint32_t value = 0;
 };
 
+/* A launch with its arguments. */
+struct BoundLaunch {
+  Launch launch;
+  std::vector<BoundArgument> arguments;
+};
+
 class Backend {
 public:
   virtual ~Backend() = default;
@@ -47,6 +54,10 @@ public:
   virtual bool is_built_ahead(Features, const std::vector<Kernel> &) { return true; }
   /* counts: the handle of Buffer::counts in this backend's storage. The call may return before the work is done. */
   virtual void run(const Launch &launch, const std::vector<BoundArgument> &arguments, void *counts) = 0;
+  /* Launches of at most so many items are better given to run_series; 0: none are. */
+  virtual uint32_t most_items_of_series() const { return 0; }
+  /* Does what run() would for each of these launches of the pipeline's kernels in turn, perhaps in fewer launches. */
+  virtual void run_series(std::span<const BoundLaunch> series, void *counts);
   /* Runs a kernel of execution HOST, which accesses its buffers itself. Only the backend of host/pipeline/cpu_kernels.h
    * supports it. */
   virtual void run_cpu_kernel(const Launch &launch, Memory &memory);
@@ -63,7 +74,11 @@ public:
   virtual void set_profiling(bool on) = 0;
   virtual std::vector<Time> take_kernel_times() = 0;
 
-  double build_milliseconds = 0; /* spent in prepare */
+  /* Builds what the launches so far would let run_series() build in the background later. */
+  virtual void build_series() {}
+
+  double build_milliseconds = 0; /* spent in prepare and build_series */
+  uint64_t launches = 0;         /* made so far; a series that runs as one counts as one */
 };
 
 } // namespace tandem

@@ -9,8 +9,10 @@
 namespace tandem {
 
 struct EmbeddedEntry {
-  const char *kernel; /* its name in the list of kernels */
-  const char *source; /* OpenCL C, of this entry alone */
+  const char *kernel;      /* its name in the list of kernels */
+  const char *source;      /* OpenCL C, of this entry alone */
+  const char *call;        /* of its shared function, with $0, $1 .. for the arguments of its row: cl/phases.cl */
+  const char *local_words; /* the size of its local memory; empty for kernels without groups */
 };
 
 struct EmbeddedProgram {

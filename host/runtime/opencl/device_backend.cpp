@@ -17,6 +17,7 @@
 #include <tandem/error.h>
 
 #include "host/runtime/interface/floating_point.h"
+#include "host/runtime/opencl/phases.h"
 #include "host/runtime/opencl/program.h"
 #include "host/runtime/opencl/storage.h"
 #include "shared/platform.h"
@@ -31,6 +32,10 @@ constexpr size_t most_items = 1u << 22; /* a launch of more items strides over t
 constexpr uint32_t launches_per_flush = 32;
 constexpr size_t most_events = 4096;
 
+/* One work-group takes less time than a launch for so many items: a step of 1,000 boxes takes an H200 0.95 ms with 256,
+ * and 0.85 with 512, 1,024 and 2,048 (docs/results/2026-11-26-h200-phases). */
+constexpr uint32_t items_of_phase = 1024;
+
 struct BuiltKernel {
   cl::Kernel kernel;
   size_t group_size = 0, widest_group = 0; /* a launch of many items may take larger groups */
@@ -42,7 +47,11 @@ constexpr uint64_t never_set = ~uint64_t{0};
 
 /* The kernels of one set of features. */
 struct Build {
+  Build(const DeviceContext &context, Features features, PhaseMode mode, size_t group_size)
+      : phases(context, features, mode, group_size)
+  {}
   std::vector<BuiltKernel> kernels = std::vector<BuiltKernel>(all_kernels());
+  Phases phases;
 };
 
 /* The programs of a stage by the features that it reads, and the kernels that each was built for. */
@@ -64,7 +73,8 @@ size_t group_size_of_tests()
 class OpenclBackend : public Backend {
 public:
   OpenclBackend(const std::string &name, const Candidate &candidate)
-      : name_(name), context_(candidate), storage_(context_), group_size_(group_size_of_tests())
+      : name_(name), context_(candidate), storage_(context_), group_size_(group_size_of_tests()),
+        phase_mode_(phase_mode_of_tests())
   {
     pending_.reserve(most_events);
   }
@@ -85,12 +95,12 @@ public:
   {
     const minicl::ExactFloatingPoint environment; /* inherited by threads that the driver may start */
     const auto start = std::chrono::steady_clock::now();
-    current_ = &builds_[features];
+    current_ = &builds_.try_emplace(features, context_, features, phase_mode_, group_size_).first->second;
     for (const auto &[key, missing] : programs_missing(features, kernels)) build(key, missing, programs_[key]);
     for (const Kernel kernel : kernels)
       if (!current_->kernels[index_of(kernel)].kernel())
         create_kernel(kernel, programs_[key_of(row_of(kernel).stage, features)].at(kernel));
-    build_milliseconds += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    add_build_time(start);
   }
 
   bool is_built_ahead(Features features, const std::vector<Kernel> &kernels) override
@@ -130,7 +140,28 @@ public:
     });
     if (code != CL_SUCCESS) fail(row_of(launch.kernel), "launch", code);
     if (event) keep(launch.kernel, event);
-    if (++launches_ % launches_per_flush == 0) clFlush(context_.queue());
+    if (++launches % launches_per_flush == 0) clFlush(context_.queue());
+  }
+
+  uint32_t most_items_of_series() const override
+  {
+    if (phase_mode_ == PhaseMode::together) return UINT32_MAX;
+    return phase_mode_ == PhaseMode::automatic && context_.info.type == "GPU" ? items_of_phase : 0;
+  }
+
+  /* A profile is of kernels, so each has a launch of its own then. */
+  void run_series(std::span<const BoundLaunch> series, void *counts) override
+  {
+    if (profiling_ || !current_) return Backend::run_series(series, counts);
+    launches += current_->phases.run(series, counts,
+                                     [&](const BoundLaunch &bound) { run(bound.launch, bound.arguments, counts); });
+  }
+
+  void build_series() override
+  {
+    const auto start = std::chrono::steady_clock::now();
+    if (current_ && most_items_of_series() > 0) current_->phases.build();
+    add_build_time(start);
   }
 
   void set_profiling(bool on) override
@@ -149,6 +180,11 @@ public:
   }
 
 private:
+  void add_build_time(std::chrono::steady_clock::time_point start)
+  {
+    build_milliseconds += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  }
+
   [[noreturn]] void fail(const KernelRow &row, const char *what, cl_int code) const
   {
     throw DeviceError(fmt::format("OpenCL device {} ({}): {} of kernel {} failed: {}", context_.info.device_name,
@@ -308,12 +344,12 @@ private:
   DeviceContext context_;
   DeviceStorage storage_;
   size_t group_size_; /* of all kernels; 0: each kernel's own */
+  PhaseMode phase_mode_;
   size_t units_ = context_.device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
   std::map<Stage, Features> readable_; /* the features that the program of a stage reads */
   Programs programs_;
   std::map<Features, Build> builds_; /* by features */
   Build *current_ = nullptr;
-  uint32_t launches_ = 0;
   bool profiling_ = false;
   std::vector<std::pair<Kernel, cl_event>> pending_;
   std::vector<Time> times_ = std::vector<Time>(all_kernels());

@@ -146,6 +146,11 @@ cl::Program build_program(const DeviceContext &context, const EmbeddedProgram &e
   return build_through_cache(context, embedded, options);
 }
 
+bool is_cached(const DeviceContext &context, const EmbeddedProgram &program, const std::string &options)
+{
+  return !is_pocl(context) && load_binary(cache_key(context, program, options)).has_value();
+}
+
 cl::Program build_through_cache(const DeviceContext &context, const EmbeddedProgram &embedded,
                                 const std::string &options)
 {

@@ -26,6 +26,9 @@ std::string source_of(const EmbeddedProgram &program);
 cl::Program build_program(const DeviceContext &context, const EmbeddedProgram &program,
                           const std::string &options = "");
 
+/* Whether build_program() would find the program in the cache. */
+bool is_cached(const DeviceContext &context, const EmbeddedProgram &program, const std::string &options);
+
 /* Builds through the cache on every platform. */
 cl::Program build_through_cache(const DeviceContext &context, const EmbeddedProgram &program,
                                 const std::string &options = "");

@@ -1,0 +1,137 @@
+/* phase_source.cpp - see phase_source.h. */
+#include "host/runtime/opencl/phase_source.h"
+
+#include <algorithm>
+#include <cstring>
+#include <optional>
+#include <stdexcept>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "cl/phase_limits.h"
+#include "host/runtime/opencl/program.h"
+
+namespace tandem::opencl {
+namespace {
+
+/* Contacts of general convex shapes take a compiler far longer than they gain by having no launches of their own. */
+constexpr Features long_to_compile =
+    FEATURE_CONVEX_CONVEX | FEATURE_CONVEX_HALF_SPACE | FEATURE_SAT_SPLIT | FEATURE_CONTINUOUS;
+
+/* The buffer of each argument; none for values. */
+std::vector<std::optional<Buffer>> buffers_of(const PhaseKind &kind)
+{
+  std::vector<std::optional<Buffer>> buffers;
+  size_t slot = 0;
+  for (const Argument &argument : row_of(kind.kernel).arguments) switch (argument.kind) {
+    case Argument::Kind::buffer: buffers.emplace_back(argument.buffer); break;
+    case Argument::Kind::slot: buffers.emplace_back(kind.slots.at(slot++)); break;
+    case Argument::Kind::value: buffers.emplace_back(std::nullopt); break;
+    }
+  return buffers;
+}
+
+const EmbeddedEntry &entry_of(Kernel kernel)
+{
+  const KernelRow &row = row_of(kernel);
+  for (const EmbeddedEntry &entry : embedded_program(name_of(row.stage)).entries)
+    if (std::strcmp(entry.kernel, row.name) == 0) return entry;
+  throw std::logic_error(fmt::format("cl/{}.cl has no entry of {}", name_of(row.stage), row.name));
+}
+
+/* Replaces $0, $1 .. in the text of a call. */
+std::string with_arguments(std::string_view call, const std::vector<std::string> &arguments)
+{
+  std::string text;
+  for (size_t at = 0; at < call.size(); ++at) {
+    if (call[at] != '$') {
+      text += call[at];
+      continue;
+    }
+    size_t number = 0;
+    while (at + 1 < call.size() && call[at + 1] >= '0' && call[at + 1] <= '9')
+      number = 10 * number + static_cast<size_t>(call[++at] - '0');
+    text += arguments.at(number);
+  }
+  return text;
+}
+
+std::string case_of(const PhaseKind &kind)
+{
+  std::vector<std::string> arguments;
+  uint32_t value = PHASE_VALUES_AT;
+  for (const std::optional<Buffer> &buffer : buffers_of(kind))
+    arguments.push_back(buffer ? row_of(*buffer).name : fmt::format("row[{}]", value++));
+  const bool is_group = row_of(kind.kernel).execution == Execution::group;
+  return fmt::format("{} {}; break;\n", is_group ? "FOR_EACH_GROUP(group)" : "FOR_EACH_IN_PHASE(i)",
+                     with_arguments(entry_of(kind.kernel).call, arguments));
+}
+
+/* The largest local memory of these kinds. */
+std::string local_words_of(const std::vector<PhaseKind> &kinds)
+{
+  std::set<std::string> sizes;
+  for (const PhaseKind &kind : kinds)
+    if (const char *words = entry_of(kind.kernel).local_words; *words) sizes.insert(words);
+  std::string largest = "1";
+  for (const std::string &size : sizes) largest = fmt::format("LARGER({}, {})", size, largest);
+  return largest;
+}
+
+/* All buffers that these kinds take, in their order. */
+std::vector<Buffer> buffers_of(const std::vector<PhaseKind> &kinds)
+{
+  std::set<Buffer> buffers;
+  for (const PhaseKind &kind : kinds)
+    for (const std::optional<Buffer> &buffer : buffers_of(kind))
+      if (buffer) buffers.insert(*buffer);
+  return {buffers.begin(), buffers.end()};
+}
+
+size_t most_buffers_of(const DeviceContext &context)
+{
+  return context.device.getInfo<CL_DEVICE_MAX_PARAMETER_SIZE>() / sizeof(cl_mem) - arguments_before_buffers;
+}
+
+/* A device takes a limited number of arguments, so a program may have to go without some kinds. PoCL 3.1 cannot form
+ * the loops of a work-group where a loop stands around the phases of a group kernel (cl/entry.h). */
+std::vector<PhaseKind> those_that_fit(const std::set<PhaseKind> &kinds, const DeviceContext &context)
+{
+  const size_t most_buffers = most_buffers_of(context);
+  std::vector<PhaseKind> fitting;
+  for (const PhaseKind &kind : kinds) {
+    const KernelRow &row = row_of(kind.kernel);
+    if ((is_pocl(context) && row.execution == Execution::group) || (row.feature & long_to_compile)) continue;
+    fitting.push_back(kind);
+    if (buffers_of(fitting).size() > most_buffers) fitting.pop_back();
+  }
+  return fitting;
+}
+
+} // namespace
+
+PhaseKind kind_of(const Launch &launch) { return {launch.kernel, {launch.slots.begin(), launch.slots.end()}}; }
+
+std::string phases_source(const std::vector<PhaseKind> &kinds, const std::vector<Buffer> &buffers)
+{
+  std::string source = "__kernel void run_phases(__global const uint *script, uint phases, __global const uint *range";
+  for (const Buffer buffer : buffers) source += fmt::format(",\n    __global uint *{}", row_of(buffer).name);
+  source += fmt::format(")\n{{\n  __local uint local_memory[{}];\n  BEGIN_PHASES\n", local_words_of(kinds));
+  for (size_t k = 0; k < kinds.size(); ++k) source += fmt::format("  case {}: {}", k, case_of(kinds[k]));
+  return source + "  END_PHASES\n}\n";
+}
+
+PhaseText::PhaseText(const DeviceContext &context, Features features, const std::set<PhaseKind> &wanted)
+    : kinds(those_that_fit(wanted, context)), buffers(buffers_of(kinds)), source(phases_source(kinds, buffers)),
+      options(fmt::format("-D FEATURES={:#x}ul", features & features_read(embedded_program("phases"))))
+{}
+
+EmbeddedProgram PhaseText::program() const
+{
+  EmbeddedProgram program = embedded_program("phases");
+  program.entries = {{"run_phases", source.c_str(), "", ""}};
+  return program;
+}
+
+} // namespace tandem::opencl
