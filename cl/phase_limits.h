@@ -6,7 +6,7 @@
 #define PHASE_RANGE_AT 1u
 #define PHASE_VALUES_AT 3u
 #define PHASE_WORDS 11u
-/* Rows of a script. With the local memory of any kernel it fits the 48 KiB that every GPU has. */
-#define MOST_PHASES 256u
+/* Rows of a script. With the local memory of any kernel, 32 KiB, they fit the 48 KiB that GPUs have. */
+#define MOST_PHASES 64u
 
 #endif

@@ -41,7 +41,7 @@ public:
     if (on_commit_) on_commit_();
   }
   /* Calls a function that launches kernels and does nothing else to the memory. Those of few items, as far as `known`
-   * tells, which holds an estimate of each entry of counts, reach their backend in series. */
+   * tells, which holds an estimate of each entry of counts, reach their backend in series; if it is empty, none do. */
   void launch_in_series(std::span<const uint32_t> known, const std::function<void()> &launches);
   size_t bytes(Buffer buffer) const override { return memory_.bytes(buffer); }
   /* Buffers of modules other than the pipeline that launches have written since the last begin_commit. */

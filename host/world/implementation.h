@@ -100,6 +100,7 @@ struct World::Implementation {
   void restore_bodies();
   [[noreturn]] void tell_why_step_failed() const;
   void begin_launches();
+  std::span<const uint32_t> counts_expected() const;
   void accept();
   void prepare_repetition(uint32_t status, bool &may_forget);
   bool candidates_overflow() const;
@@ -247,7 +248,7 @@ struct World::Implementation {
   std::vector<std::pair<int, uint32_t>> scene_entries; /* of counts */
   uint64_t state = 1, structure_state = 0; /* the number of the present state, and of the one that the queries'
                                               structure belongs to */
-  std::vector<uint32_t> queried_bodies; /* as tell_queried_bodies keeps them */
+  std::vector<uint32_t> queried_bodies;    /* as tell_queried_bodies keeps them */
   bool launches_ended = true;
   bool turned = false; /* the commit of an unfinished step has begun */
   bool idle = false;   /* the last step had nothing to do, so it has no events and no contacts */
@@ -271,12 +272,13 @@ struct World::Implementation {
   std::set<uint32_t> moving_kinematics; /* slots */
   uint32_t awake_dynamics = 0;
   uint32_t sorted_sleepers = 0, listed_sleepers = 0; /* entries of their table, while it is right */
-  uint32_t counted_bodies = 0; /* that kernels see: those awake, or for queries all */
-  uint64_t quiet_state = 0;    /* the state that the last step left */
+  uint32_t counted_bodies = 0;                       /* that kernels see: those awake, or for queries all */
+  uint64_t quiet_state = 0;                          /* the state that the last step left */
   std::vector<Quarantine> quarantined;
   std::optional<BatchFault> fault;
   Statistics statistics;
-  uint32_t cached_pairs = 0; /* in the contact cache, as cached_start says */
+  uint32_t cached_pairs = 0;  /* in the contact cache, as cached_start says */
+  uint32_t awake_at_last = 0; /* bodies, in the last step */
   StateRing ring;
   std::unique_ptr<CallLog> log; /* of the recording, if one is made */
 };

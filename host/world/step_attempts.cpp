@@ -106,7 +106,7 @@ void World::Implementation::run_until_whole(const StepLimits &limits)
   bool may_forget = launches_ended && plan.known[COUNT_KEPT] != 0;
   for (size_t repetition = 0; repetition < most_repetitions + taken_one_by_one; ++repetition) {
     begin_launches();
-    launcher.launch_in_series(plan.known, [this] { launch_step(launcher, plan, settings); });
+    launcher.launch_in_series(counts_expected(), [this] { launch_step(launcher, plan, settings); });
     memory.download(Buffer::counts, plan.known.data(), sizeof plan.known);
     launches_ended = true;
     check_limits(limits);
@@ -185,6 +185,15 @@ void World::Implementation::tell_why_step_failed() const
   }
 }
 
+/* The counts of a step of few bodies say nothing of the pairs of many that woke or came since: one work-group would
+ * have to do them all. Nothing is expected then. */
+std::span<const uint32_t> World::Implementation::counts_expected() const
+{
+  constexpr uint32_t few_bodies = 1024;
+  if (special.awake > std::max(few_bodies, 2 * awake_at_last)) return {};
+  return plan.known;
+}
+
 /* If launches were interrupted by an exception that the caller handled, what broadphases kept may belong to no complete
  * launch. */
 void World::Implementation::begin_launches()
@@ -205,6 +214,7 @@ void World::Implementation::accept()
   moved_before.reset();
   ++statistics.steps;
   cached_pairs = plan.known[COUNT_PAIRS];
+  awake_at_last = special.awake;
   plan.rounds = std::clamp<uint32_t>(plan.known[COUNT_ROUNDS] + 3, 4, most_rounds);
   plan.colors = std::min(plan.known[COUNT_COLORS] + 1, COLOR_LIMIT);
   if (plan.known[COUNT_COLORS] > COLOR_LIMIT) plan.colors = COLOR_LIMIT + 1;

@@ -65,10 +65,10 @@ FORCE_INLINE uint find_in_row(const pair_search *search, const sleeper_list *sle
   uint end = first, after = key_of_cell(row.low, row.y, row.z); /* the key of the cell that starts at `end` */
   for (int x = row.low; x <= row.high; ++x) {
     uint key = key_of_cell(x, row.y, row.z);
-    first = key == after ? end : lower_bound_of(sleepers->table.key, sleepers->sorted, key);
-    end = first;
+    uint start = key == after ? end : lower_bound_of(sleepers->table.key, sleepers->sorted, key);
+    end = start;
     while (end < sleepers->sorted && sleepers->table.key[end] == key) ++end;
-    at = find_among_sleepers(search, sleepers, first, end, list, at);
+    at = find_among_sleepers(search, sleepers, start, end, list, at);
     after = key + 1u;
   }
   return at;

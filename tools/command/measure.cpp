@@ -3,6 +3,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdio>
+#include <stdexcept>
+
+#include <fmt/format.h>
 
 #include "host/runtime/interface/kernel_list.h"
 
@@ -62,10 +66,14 @@ double profiled_step(World &world, StageTimes &stages)
   return milliseconds;
 }
 
-/* Kernels that a long run builds while it runs are built before. */
+/* Kernels that a long run builds while it runs are built before. It goes on without those that cannot be built. */
 void prepare_for_timing(World &world)
 {
-  world.prepare_kernels();
+  try {
+    world.prepare_kernels();
+  } catch (const std::runtime_error &error) {
+    fmt::print(stderr, "tandem: launches are not joined: {}\n", error.what());
+  }
   world.finish();
 }
 

@@ -366,10 +366,11 @@ public:
   /* Waits for the devices, so that a clock read afterwards includes their work, and for kernels that are being built
    * for them (Placement::build_in_background). */
   void finish();
-  /* Builds at once what a GPU would build in the background after some hundred steps: a program that makes one launch
-   * of many that have few items each (docs/pipeline.md, "Launches"). The steps so far tell which, so call it after some
-   * of them, while nobody waits for the next. Results are the same without it. If the driver fails to build it, throws
-   * std::runtime_error and changes nothing. */
+  /* Builds at once what a GPU would build in the background after some hundred steps: a program that runs many launches
+   * of few items as one (docs/pipeline.md, "Launches"). The steps so far tell which, so call it after some of them,
+   * while nobody waits for the next, and again where others follow, as when bodies first fall asleep. Results are the
+   * same without it. If the driver fails to build it, throws std::runtime_error and changes nothing. The end of a world
+   * waits for what is being built, up to some ten seconds. */
   void prepare_kernels();
   /* Measures each kernel, which therefore has launches of its own. */
   void set_profiling(bool on);
@@ -381,7 +382,8 @@ public:
   Memory &memory();
   Backend &backend_of(Kernel kernel);
   double build_milliseconds() const;
-  uint64_t launches() const; /* of kernels, made so far by all backends */
+  /* Launches that backends have made so far, without kernels of the host alone; joined ones count as one. */
+  uint64_t launches() const;
 
   /* Called after every launch of a step, in order; the comparison of backends uses it. */
   using Observer = std::function<void(const Launch &)>;

@@ -33,7 +33,7 @@ constexpr uint32_t launches_per_flush = 32;
 constexpr size_t most_events = 4096;
 
 /* One work-group takes less time than a launch for so many items: a step of 1,000 boxes takes an H200 0.95 ms with 256,
- * and 0.85 with 512, 1,024 and 2,048 (docs/results/2026-11-26-h200-phases). */
+ * 0.85 with 512, and 0.84 with 1,024 and with 2,048 (docs/results/2026-11-26-h200-phases). */
 constexpr uint32_t items_of_phase = 1024;
 
 struct BuiltKernel {
@@ -153,8 +153,8 @@ public:
   void run_series(std::span<const BoundLaunch> series, void *counts) override
   {
     if (profiling_ || !current_) return Backend::run_series(series, counts);
-    launches += current_->phases.run(series, counts,
-                                     [&](const BoundLaunch &bound) { run(bound.launch, bound.arguments, counts); });
+    const auto run_alone = [&](const BoundLaunch &bound) { run(bound.launch, bound.arguments, counts); };
+    current_->phases.run(series, counts, run_alone, launches);
   }
 
   void build_series() override

@@ -57,12 +57,15 @@ std::string with_arguments(std::string_view call, const std::vector<std::string>
   return text;
 }
 
+/* A buffer of a module may have any name. */
+std::string name_in_source(Buffer buffer) { return std::string("buffer_") + row_of(buffer).name; }
+
 std::string case_of(const PhaseKind &kind)
 {
   std::vector<std::string> arguments;
   uint32_t value = PHASE_VALUES_AT;
   for (const std::optional<Buffer> &buffer : buffers_of(kind))
-    arguments.push_back(buffer ? row_of(*buffer).name : fmt::format("row[{}]", value++));
+    arguments.push_back(buffer ? name_in_source(*buffer) : fmt::format("row[{}]", value++));
   const bool is_group = row_of(kind.kernel).execution == Execution::group;
   return fmt::format("{} {}; break;\n", is_group ? "FOR_EACH_GROUP(group)" : "FOR_EACH_IN_PHASE(i)",
                      with_arguments(entry_of(kind.kernel).call, arguments));
@@ -116,7 +119,7 @@ PhaseKind kind_of(const Launch &launch) { return {launch.kernel, {launch.slots.b
 std::string phases_source(const std::vector<PhaseKind> &kinds, const std::vector<Buffer> &buffers)
 {
   std::string source = "__kernel void run_phases(__global const uint *script, uint phases, __global const uint *range";
-  for (const Buffer buffer : buffers) source += fmt::format(",\n    __global uint *{}", row_of(buffer).name);
+  for (const Buffer buffer : buffers) source += fmt::format(",\n    __global uint *{}", name_in_source(buffer));
   source += fmt::format(")\n{{\n  __local uint local_memory[{}];\n  BEGIN_PHASES\n", local_words_of(kinds));
   for (size_t k = 0; k < kinds.size(); ++k) source += fmt::format("  case {}: {}", k, case_of(kinds[k]));
   return source + "  END_PHASES\n}\n";

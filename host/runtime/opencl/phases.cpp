@@ -18,9 +18,10 @@
 namespace tandem::opencl {
 namespace {
 
-constexpr size_t least_gain = 4;             /* fewer launches are not worth joining */
-constexpr size_t missed_until_look = 512;    /* some steps, in which most kinds of phases have occurred */
-constexpr size_t missed_until_build = 50000; /* some hundred steps; a shorter run would end by waiting for it */
+constexpr size_t least_gain = 4;              /* fewer launches are not worth joining */
+constexpr size_t missed_until_look = 512;     /* some steps */
+constexpr size_t missed_until_build = 50000;  /* some hundred steps; a shorter run would end by waiting for it */
+constexpr size_t missed_until_rebuild = 5000; /* of a world that has run for long, and has new kinds of phases */
 
 } // namespace
 
@@ -38,21 +39,21 @@ Phases::Phases(const DeviceContext &context, Features features, PhaseMode mode, 
     : context_(context), features_(features), mode_(mode), group_size_(group_size)
 {}
 
-uint64_t Phases::run(std::span<const BoundLaunch> series, void *counts, const RunAlone &run_alone)
+void Phases::run(std::span<const BoundLaunch> series, void *counts, const RunAlone &run_alone, uint64_t &launches)
 {
-  if (mode_ != PhaseMode::separate) {
-    take_built();
-    note(series);
-    build_if_worthwhile();
-  }
-  uint64_t joined = 0;
+  take_built();
+  note(series);
+  build_if_worthwhile();
   while (!series.empty()) {
     const size_t count = joinable(series);
-    if (count == 0) run_alone(series.front());
-    else program_->run(series.first(count), counts), ++joined;
+    if (count == 0) {
+      run_alone(series.front());
+    } else {
+      program_->run(series.first(count), counts);
+      ++launches;
+    }
     series = series.subspan(std::max<size_t>(count, 1));
   }
-  return joined;
 }
 
 /* The number of launches that the series begins with and that one launch can do. */
@@ -64,24 +65,27 @@ size_t Phases::joinable(std::span<const BoundLaunch> series) const
   return count < (mode_ == PhaseMode::together ? 1 : least_gain) ? 0 : count;
 }
 
-/* A kind that a program was built for before is not missing: it has it, unless the device must go without. */
+/* A kind that a program was built for before is not missing: it has it, unless the device must go without. A series
+ * counts whole, because a kind that is missing in its middle cuts it. */
 void Phases::note(std::span<const BoundLaunch> series)
 {
   if (series.size() < least_gain && mode_ != PhaseMode::together) return;
+  bool misses = false;
   for (const BoundLaunch &bound : series) {
     if (program_ && program_->has(bound.launch)) continue;
     const PhaseKind kind = kind_of(bound.launch);
     if (tried_.contains(kind)) continue;
     known_.insert(kind);
-    ++missed_;
+    misses = true;
   }
+  if (misses) missed_ += series.size();
 }
 
 void Phases::build_if_worthwhile()
 {
   if (ahead_.valid() || missed_ == 0) return;
   if (mode_ == PhaseMode::together) return build();
-  const bool is_long = missed_ >= missed_until_build;
+  const bool is_long = missed_ >= (program_ ? missed_until_rebuild : missed_until_build);
   if (!is_long && (looked_ || missed_ < missed_until_look)) return;
   looked_ = true;
   building_ = known_;
@@ -92,22 +96,28 @@ void Phases::build()
 {
   if (ahead_.valid()) ahead_.wait();
   take_built();
-  if (known_ == tried_) return;
-  std::unique_ptr<PhaseProgram> program = built(known_, false);
-  program_ = std::move(program);
+  if (known_ == tried_ && !failed_) return;
+  program_ = built(known_, false);
   building_ = known_;
+  failed_ = false;
   begin_to_count();
 }
 
 std::unique_ptr<PhaseProgram> Phases::built(const std::set<PhaseKind> &kinds, bool only_from_cache) const
 {
   const minicl::ExactFloatingPoint environment; /* inherited by threads that the driver may start */
-  const PhaseText text(context_, features_, kinds);
-  if (only_from_cache && !is_cached(context_, text.program(), text.options)) return nullptr;
-  return std::make_unique<PhaseProgram>(context_, text, group_size_);
+  try {
+    const PhaseText text(context_, features_, kinds);
+    if (only_from_cache && !is_cached(context_, text.program(), text.options)) return nullptr;
+    return std::make_unique<PhaseProgram>(context_, text, group_size_);
+  } catch (const cl::Error &error) {
+    throw DeviceError(fmt::format("OpenCL device {} ({}): creation of kernel run_phases failed: {} {}",
+                                  context_.info.device_name, context_.info.platform_name, error.what(),
+                                  error_name(error.err())));
+  }
 }
 
-/* A program that cannot be built is no error, because launches do without it. */
+/* Launches do without a program that cannot be built in the background. */
 void Phases::take_built()
 {
   if (!ahead_.valid() || ahead_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
@@ -115,7 +125,9 @@ void Phases::take_built()
     std::unique_ptr<PhaseProgram> program = ahead_.get();
     if (!program) return; /* it was not in the cache */
     program_ = std::move(program);
-  } catch (const std::exception &) {}
+  } catch (const std::exception &) {
+    failed_ = true;
+  }
   begin_to_count();
 }
 

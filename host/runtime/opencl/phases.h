@@ -27,12 +27,12 @@ class Phases {
 public:
   Phases(const DeviceContext &context, Features features, PhaseMode mode, size_t group_size);
 
-  /* Runs a series in its order: parts of it joined, and the rest by `run_alone`. Returns the number of joined launches
-   * that were made. Throws DeviceError. */
+  /* Runs a series in its order: parts of it joined, each of which adds one to `launches`, and the rest by `run_alone`.
+   * Throws DeviceError. */
   using RunAlone = std::function<void(const BoundLaunch &)>;
-  uint64_t run(std::span<const BoundLaunch> series, void *counts, const RunAlone &run_alone);
+  void run(std::span<const BoundLaunch> series, void *counts, const RunAlone &run_alone, uint64_t &launches);
 
-  /* Builds for all kinds that have occurred, now. Throws what build_program() throws. */
+  /* Builds for all kinds that have occurred, now. Throws DeviceError or BuildError, and then keeps what it had. */
   void build();
 
 private:
@@ -49,8 +49,9 @@ private:
   size_t group_size_;
   /* Kinds that occurred, those of them that a program is being built for, and those that one was built for. */
   std::set<PhaseKind> known_, building_, tried_;
-  size_t missed_ = 0;   /* launches since the last build of kinds that were not tried */
+  size_t missed_ = 0;   /* launches since the last build, of series with kinds that were not tried */
   bool looked_ = false; /* in the cache of programs, since then */
+  bool failed_ = false; /* the last build in the background */
   std::unique_ptr<PhaseProgram> program_;
   std::future<std::unique_ptr<PhaseProgram>> ahead_; /* the last member, because its thread uses the others */
 };
