@@ -9,8 +9,8 @@
  * the bits are the same. Whatever the range holds is processed: what few items are is a matter of speed alone.
  */
 #include "cl/entry.h"
-#include "cl/phase_limits.h"
 #include "shared/kernels.h"
+#include "shared/parallel/phase_limits.h"
 
 /* The words of a script are read first, because each phase would wait for its own otherwise. */
 #define BEGIN_PHASES                                                                                    \

@@ -5,9 +5,9 @@
 
 #include <fmt/format.h>
 
-#include "cl/phase_limits.h"
 #include "host/runtime/opencl/program.h"
 #include "host/runtime/opencl/storage.h"
+#include "shared/parallel/phase_limits.h"
 
 namespace tandem::opencl {
 namespace {

@@ -9,8 +9,8 @@
 
 #include <fmt/format.h>
 
-#include "cl/phase_limits.h"
 #include "host/runtime/opencl/program.h"
+#include "shared/parallel/phase_limits.h"
 
 namespace tandem::opencl {
 namespace {

@@ -11,9 +11,9 @@
 
 #include <tandem/error.h>
 
-#include "cl/phase_limits.h"
 #include "host/runtime/interface/floating_point.h"
 #include "host/runtime/opencl/program.h"
+#include "shared/parallel/phase_limits.h"
 
 namespace tandem::opencl {
 namespace {
