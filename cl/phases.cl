@@ -10,6 +10,7 @@
  */
 #include "cl/entry.h"
 #include "shared/kernels.h"
+#include "shared/parallel/length.h"
 #include "shared/parallel/phase_limits.h"
 
 /* The words of a script are read first, because each phase would wait for its own otherwise. */
@@ -31,6 +32,6 @@
 
 /* The groups of a phase follow one another in the only work-group. */
 #define FOR_EACH_GROUP(group) \
-  for (uint group = 0, groups = (last - first + TILE - 1u) / TILE; group < groups; ++group, END_GROUP)
+  for (uint group = 0, groups = units_of(last - first, TILE); group < groups; ++group, END_GROUP)
 
 #define LARGER(a, b) ((a) > (b) ? (a) : (b))

@@ -74,7 +74,6 @@ void prepare_for_timing(World &world)
   } catch (const std::runtime_error &error) {
     fmt::print(stderr, "tandem: launches are not joined: {}\n", error.what());
   }
-  world.finish();
 }
 
 } // namespace
