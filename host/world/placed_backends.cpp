@@ -1,6 +1,7 @@
 /* placed_backends.cpp - makes backends, and maps kernels to them; see placed_backends.h. */
 #include "host/world/placed_backends.h"
 
+#include <algorithm>
 #include <exception>
 #include <utility>
 
@@ -141,6 +142,13 @@ uint64_t PlacedBackends::launches() const
   uint64_t total = 0;
   for (const auto &[text, backend] : backends_) total += backend->launches;
   return total;
+}
+
+uint32_t PlacedBackends::resident_groups() const
+{
+  uint32_t most = 1;
+  for (const auto &[text, backend] : backends_) most = std::max(most, backend->resident_groups());
+  return most;
 }
 
 } // namespace tandem

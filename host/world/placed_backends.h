@@ -42,6 +42,7 @@ public:
   std::vector<KernelTime> take_kernel_times();
   double build_milliseconds() const;
   uint64_t launches() const;
+  uint32_t resident_groups() const;
 
 private:
   void assign(const Placement &placement, const std::vector<Kernel> &kernels, bool in_background);

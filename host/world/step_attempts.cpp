@@ -111,6 +111,9 @@ void World::Implementation::run_until_whole(const StepLimits &limits)
     launches_ended = true;
     check_limits(limits);
     if (plan.known[COUNT_STATUS] == 0) return accept();
+    if (plan.known[COUNT_STATUS] & STATUS_DEADLOCK)
+      throw std::runtime_error("work-groups of a launch waited for each other in vain; TANDEM_PHASES=separate in the "
+                               "environment makes launches that do not wait");
     turn_back();
     prepare_repetition(plan.known[COUNT_STATUS], may_forget);
   }

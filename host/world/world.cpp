@@ -578,6 +578,7 @@ void World::set_profiling(bool on) { implementation_->backends.set_profiling(on)
 std::vector<KernelTime> World::take_kernel_times() { return implementation_->backends.take_kernel_times(); }
 double World::build_milliseconds() const { return implementation_->backends.build_milliseconds(); }
 uint64_t World::launches() const { return implementation_->backends.launches(); }
+uint32_t World::resident_groups() const { return implementation_->backends.resident_groups(); }
 
 void World::prepare_kernels()
 {

@@ -19,7 +19,7 @@ SHARED void begin_step_item(GLOBAL uint *counts, uint i)
   counts[COUNT_UNCOLORED] = 0u;
   counts[COUNT_ROUNDS] = 0u;
   counts[COUNT_COLORS] = 0u;
-  counts[COUNT_STATUS] = 0u;
+  counts[COUNT_STATUS] &= STATUS_DEADLOCK;
   counts[COUNT_DIRECT_ISLANDS] = 0u;
   counts[COUNT_DIRECT_LEFT] = 0u;
   counts[COUNT_DIRECT_STALLED] = 0u;
@@ -51,7 +51,7 @@ SHARED void check_bodies_item(GLOBAL const float4 *body_position, GLOBAL const f
 SHARED void finish_step_item(GLOBAL uint *counts, uint colors, uint i)
 {
   (void)i;
-  uint status = 0u;
+  uint status = counts[COUNT_STATUS] & STATUS_DEADLOCK;
   if (counts[COUNT_SLEEPER_PAIRS_NEEDED] > counts[COUNT_PAIRS_NEEDED])
     counts[COUNT_PAIRS_NEEDED] = counts[COUNT_SLEEPER_PAIRS_NEEDED];
   if (counts[COUNT_PAIRS_NEEDED] > counts[CAPACITY_PAIRS]) status |= STATUS_PAIRS;

@@ -57,9 +57,10 @@ void add_options(CLI::App &parser, RunOptions &options)
       .add_option("--events", options.events,
                   "write which bodies begin, go on and cease to touch in each step, and how hard")
       ->type_name("F.json");
-  CLI::Option *record = parser.add_option("--record", options.record,
-                                          "write a recording for `tandem replay` and `tandem diff`: a snapshot, and a "
-                                          "hash a step, which makes steps take longer")
+  CLI::Option *record = parser
+                            .add_option("--record", options.record,
+                                        "write a recording for `tandem replay` and `tandem diff`: a snapshot, and a "
+                                        "hash a step, which makes steps take longer")
                             ->type_name("F.tandem");
   parser
       .add_option("--record-snapshots", options.record_snapshots,
@@ -172,8 +173,16 @@ Json outcome_json(const Outcome &outcome, World &world, const Placement &placeme
           {"kernels_built", world.kernels().size()},
           {"build_ms", world.build_milliseconds()},
           {"launches", outcome.measurement.launches},
+          {"resident_groups", world.resident_groups()},
           {"hash", hash_text(outcome.hash)},
           {"body_hash", hash_text(outcome.body_hash)}};
+}
+
+std::string launches_text(const World &world, const Measurement &measurement)
+{
+  const uint32_t groups = world.resident_groups();
+  return fmt::format("{:.0f} a step", measurement.launches) +
+         (groups > 1 ? fmt::format(", of up to {} work-groups that wait for each other", groups) : "");
 }
 
 std::string stage_table(const Measurement &measurement)
@@ -205,7 +214,7 @@ std::string facts_table(const Outcome &outcome, World &world)
   table.add({"kinetic energy", fmt::format("{:.6g} J", statistics.kinetic_energy)});
   table.add({"memory", bytes_text(world.memory().total_bytes())});
   table.add({"kernels", fmt::format("{}, built in {:.0f} ms", world.kernels().size(), world.build_milliseconds())});
-  table.add({"launches", fmt::format("{:.0f} a step", outcome.measurement.launches)});
+  table.add({"launches", launches_text(world, outcome.measurement)});
   table.add({"hash", fmt::format("{} (bodies alone {})", hash_text(outcome.hash), hash_text(outcome.body_hash))});
   if (world.settings().check)
     table.add(

@@ -384,6 +384,8 @@ public:
   double build_milliseconds() const;
   /* Launches that backends have made so far, without kernels of the host alone; joined ones count as one. */
   uint64_t launches() const;
+  /* The work-groups of the largest launch that joins others: 1 where only launches of few items are joined, or none. */
+  uint32_t resident_groups() const;
 
   /* Called after every launch of a step, in order; the comparison of backends uses it. */
   using Observer = std::function<void(const Launch &)>;

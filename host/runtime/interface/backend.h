@@ -39,6 +39,7 @@ struct BoundArgument {
 /* A launch with its arguments. */
 struct BoundLaunch {
   Launch launch;
+  uint32_t items = 0; /* as many as there were in the last step */
   std::vector<BoundArgument> arguments;
 };
 
@@ -54,10 +55,14 @@ public:
   virtual bool is_built_ahead(Features, const std::vector<Kernel> &) { return true; }
   /* counts: the handle of Buffer::counts in this backend's storage. The call may return before the work is done. */
   virtual void run(const Launch &launch, const std::vector<BoundArgument> &arguments, void *counts) = 0;
-  /* Launches of at most so many items are better given to run_series; 0: none are. */
+  /* Launches of at most so many items are better given to run_series, so many at a time; 0: none are. A device runs one
+   * series while the host collects the next: so a step of 40 boxes takes an H200 0.35 ms, and 0.385 in one series. */
   virtual uint32_t most_items_of_series() const { return 0; }
+  virtual size_t most_launches_of_series() const { return 64; }
   /* Does what run() would for each of these launches of the pipeline's kernels in turn, perhaps in fewer launches. */
   virtual void run_series(std::span<const BoundLaunch> series, void *counts);
+  /* The work-groups of a launch that joins others, which wait for each other: those that the device runs together. */
+  virtual uint32_t resident_groups() const { return 1; }
   /* Runs a kernel of execution HOST, which accesses its buffers itself. Only the backend of host/pipeline/cpu_kernels.h
    * supports it. */
   virtual void run_cpu_kernel(const Launch &launch, Memory &memory);

@@ -140,7 +140,6 @@ DeviceContext::DeviceContext(const Candidate &candidate) : info(candidate.info),
     fail_to_open(info, error);
   }
   open_queue(0);
-  options = "-cl-std=CL1.2";
   if (candidate.promises_exact_division) options += " -cl-fp32-correctly-rounded-divide-sqrt";
   /* Oclgrind 21.10 fails on an optimiser hint that Clang leaves in inlined code. */
   if (info.platform_name == "Oclgrind") options += " -cl-opt-disable";

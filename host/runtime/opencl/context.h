@@ -30,7 +30,7 @@ struct DeviceContext {
   cl::Device device;
   cl::Context context;
   cl::CommandQueue queue; /* in order */
-  std::string options;    /* for every program: the language and the floating-point rules */
+  std::string options;    /* for every program: the floating-point rules */
 };
 
 inline bool is_pocl(const DeviceContext &context)

@@ -32,10 +32,6 @@ constexpr size_t most_items = 1u << 22; /* a launch of more items strides over t
 constexpr uint32_t launches_per_flush = 32;
 constexpr size_t most_events = 4096;
 
-/* One work-group takes less time than a launch for so many items: a step of 1,000 boxes takes an H200 0.95 ms with 256,
- * 0.85 with 512, and 0.84 with 1,024 and with 2,048 (docs/results/2026-11-26-h200-phases). */
-constexpr uint32_t items_of_phase = 1024;
-
 struct BuiltKernel {
   cl::Kernel kernel;
   size_t group_size = 0, widest_group = 0; /* a launch of many items may take larger groups */
@@ -143,11 +139,9 @@ public:
     if (++launches % launches_per_flush == 0) clFlush(context_.queue());
   }
 
-  uint32_t most_items_of_series() const override
-  {
-    if (phase_mode_ == PhaseMode::together) return UINT32_MAX;
-    return phase_mode_ == PhaseMode::automatic && context_.info.type == "GPU" ? items_of_phase : 0;
-  }
+  uint32_t most_items_of_series() const override { return current_ ? current_->phases.most_items() : 0; }
+
+  uint32_t resident_groups() const override { return current_ ? current_->phases.resident_groups() : 1; }
 
   /* A profile is of kernels, so each has a launch of its own then. */
   void run_series(std::span<const BoundLaunch> series, void *counts) override

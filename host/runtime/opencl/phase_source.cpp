@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "host/runtime/opencl/program.h"
+#include "host/runtime/opencl/resident_groups.h"
 #include "shared/parallel/phase_limits.h"
 
 namespace tandem::opencl {
@@ -94,7 +95,8 @@ std::vector<Buffer> buffers_of(const std::vector<PhaseKind> &kinds)
 
 size_t most_buffers_of(const DeviceContext &context)
 {
-  return context.device.getInfo<CL_DEVICE_MAX_PARAMETER_SIZE>() / sizeof(cl_mem) - arguments_before_buffers;
+  return context.device.getInfo<CL_DEVICE_MAX_PARAMETER_SIZE>() / sizeof(cl_mem) - arguments_before_buffers -
+         arguments_after_buffers;
 }
 
 /* A device takes a limited number of arguments, so a program may have to go without some kinds. PoCL 3.1 cannot form
@@ -112,22 +114,34 @@ std::vector<PhaseKind> those_that_fit(const std::set<PhaseKind> &kinds, const De
   return fitting;
 }
 
+const char *options_of_resident_groups(const DeviceContext &context)
+{
+  return has_fence_between_groups(context) ? " -D RESIDENT_GROUPS -cl-std=CL3.0" : " -D RESIDENT_GROUPS";
+}
+
 } // namespace
 
 PhaseKind kind_of(const Launch &launch) { return {launch.kernel, {launch.slots.begin(), launch.slots.end()}}; }
 
-std::string phases_source(const std::vector<PhaseKind> &kinds, const std::vector<Buffer> &buffers)
+std::string phases_source(const std::vector<PhaseKind> &kinds, const std::vector<Buffer> &buffers,
+                          bool has_resident_groups)
 {
-  std::string source = "__kernel void run_phases(__global const uint *script, uint phases, __global const uint *range";
+  std::string source =
+      fmt::format("__kernel void run_phases(__global const uint *script, uint phases, __global {}uint *range",
+                  has_resident_groups ? "" : "const ");
   for (const Buffer buffer : buffers) source += fmt::format(",\n    __global uint *{}", name_in_source(buffer));
+  if (has_resident_groups) source += ",\n    __global uint *arrivals, uint arrived, uint patience";
   source += fmt::format(")\n{{\n  __local uint local_memory[{}];\n  BEGIN_PHASES\n", local_words_of(kinds));
   for (size_t k = 0; k < kinds.size(); ++k) source += fmt::format("  case {}: {}", k, case_of(kinds[k]));
   return source + "  END_PHASES\n}\n";
 }
 
-PhaseText::PhaseText(const DeviceContext &context, Features features, const std::set<PhaseKind> &wanted)
-    : kinds(those_that_fit(wanted, context)), buffers(buffers_of(kinds)), source(phases_source(kinds, buffers)),
-      options(fmt::format("-D FEATURES={:#x}ul", features & features_read(embedded_program("phases"))))
+PhaseText::PhaseText(const DeviceContext &context, Features features, const std::set<PhaseKind> &wanted,
+                     bool has_resident_groups)
+    : kinds(those_that_fit(wanted, context)), buffers(buffers_of(kinds)),
+      source(phases_source(kinds, buffers, has_resident_groups)), resident_groups(has_resident_groups),
+      options(fmt::format("-D FEATURES={:#x}ul{}", features & features_read(embedded_program("phases")),
+                          has_resident_groups ? options_of_resident_groups(context) : ""))
 {}
 
 EmbeddedProgram PhaseText::program() const

@@ -18,7 +18,21 @@
 namespace tandem::opencl {
 namespace {
 
-constexpr size_t least_gain = 4;              /* fewer launches are not worth joining */
+constexpr size_t least_gain = 4; /* fewer launches are not worth joining */
+/* One work-group takes less time than a launch for so many items: a step of 1,000 boxes takes an H200 0.95 ms with 256,
+ * 0.85 with 512, and 0.84 with 1,024 and with 2,048 (docs/results/2026-11-26-h200-phases). */
+constexpr uint32_t items_of_phase = 1024;
+/* Resident groups take less time for so many: a step of 64,000 boxes takes 1.30 ms, 1.44 with 262,144 and 1.92 with
+ * 16,384 (docs/results/2026-11-26-h200-resident-groups). */
+constexpr uint32_t items_of_resident_phase = 65536;
+/* More items are faster in all groups: a step of 1,000 boxes takes 0.68 ms with 128 or 256, 0.87 with 512. Tests let
+ * nearly all phases take them. */
+constexpr uint32_t items_of_first_group = 256, items_of_first_group_in_tests = 8;
+
+/* Where fewer launches have many items, a program for one group is faster: a step of 100 boxes takes it 0.37 ms, and
+ * one with resident groups 0.45. */
+constexpr double least_share_of_many_items = 1.0 / 16, series_remembered = 32;
+
 constexpr size_t missed_until_look = 512;     /* some steps */
 constexpr size_t missed_until_build = 50000;  /* some hundred steps; a shorter run would end by waiting for it */
 constexpr size_t missed_until_rebuild = 5000; /* of a world that has run for long, and has new kinds of phases */
@@ -30,9 +44,10 @@ PhaseMode phase_mode_of_tests()
   const char *text = std::getenv("TANDEM_PHASES");
   if (!text || !*text) return PhaseMode::automatic;
   const std::string_view word = text;
-  if (word != "separate" && word != "together")
-    throw InputError(fmt::format("TANDEM_PHASES '{}' is neither 'separate' nor 'together'", word));
-  return word == "separate" ? PhaseMode::separate : PhaseMode::together;
+  if (word == "separate") return PhaseMode::separate;
+  if (word == "together") return PhaseMode::together;
+  if (word == "resident") return PhaseMode::resident;
+  throw InputError(fmt::format("TANDEM_PHASES '{}' is neither 'separate', 'together' nor 'resident'", word));
 }
 
 Phases::Phases(const DeviceContext &context, Features features, PhaseMode mode, size_t group_size)
@@ -61,35 +76,58 @@ size_t Phases::joinable(std::span<const BoundLaunch> series) const
 {
   if (!program_) return 0;
   size_t count = 0;
-  while (count < std::min<size_t>(series.size(), MOST_PHASES) && program_->has(series[count].launch)) ++count;
-  return count < (mode_ == PhaseMode::together ? 1 : least_gain) ? 0 : count;
+  while (count < std::min<size_t>(series.size(), MOST_PHASES) && joins(series[count])) ++count;
+  return count < (joins_all() ? 1 : least_gain) ? 0 : count;
+}
+
+bool Phases::joins(const BoundLaunch &bound) const
+{
+  const uint32_t most = joins_all()                       ? UINT32_MAX
+                        : program_->has_resident_groups() ? items_of_resident_phase
+                                                          : items_of_phase;
+  return bound.items <= most && program_->has(bound.launch);
 }
 
 /* A kind that a program was built for before is not missing: it has it, unless the device must go without. A series
  * counts whole, because a kind that is missing in its middle cuts it. */
 void Phases::note(std::span<const BoundLaunch> series)
 {
-  if (series.size() < least_gain && mode_ != PhaseMode::together) return;
-  bool misses = false;
+  if (series.size() < least_gain && !joins_all()) return;
+  note_sizes(series);
+  bool misses = known_.many_items && !tried_.many_items;
   for (const BoundLaunch &bound : series) {
-    if (program_ && program_->has(bound.launch)) continue;
-    const PhaseKind kind = kind_of(bound.launch);
-    if (tried_.contains(kind)) continue;
-    known_.insert(kind);
+    if (!lacks(bound)) continue;
+    known_.kinds.insert(kind_of(bound.launch));
     misses = true;
   }
   if (misses) missed_ += series.size();
 }
 
+/* A single step says little: before the first one, counts are only what there is room for. */
+void Phases::note_sizes(std::span<const BoundLaunch> series)
+{
+  if (mode_ != PhaseMode::automatic || !may_have_resident_groups()) return;
+  const auto has_many = [](const BoundLaunch &bound) { return bound.items > items_of_phase; };
+  const double share =
+      static_cast<double>(std::count_if(series.begin(), series.end(), has_many)) / static_cast<double>(series.size());
+  share_of_many_items_ += (share - share_of_many_items_) / series_remembered;
+  known_.many_items = tried_.many_items || share_of_many_items_ > least_share_of_many_items;
+}
+
+bool Phases::lacks(const BoundLaunch &bound) const
+{
+  return !(program_ && program_->has(bound.launch)) && !tried_.kinds.contains(kind_of(bound.launch));
+}
+
 void Phases::build_if_worthwhile()
 {
   if (ahead_.valid() || missed_ == 0) return;
-  if (mode_ == PhaseMode::together) return build();
+  if (joins_all()) return build();
   const bool is_long = missed_ >= (program_ ? missed_until_rebuild : missed_until_build);
   if (!is_long && (looked_ || missed_ < missed_until_look)) return;
   looked_ = true;
   building_ = known_;
-  ahead_ = std::async(std::launch::async, [this, kinds = building_, is_long] { return built(kinds, !is_long); });
+  ahead_ = std::async(std::launch::async, [this, wanted = building_, is_long] { return built(wanted, !is_long); });
 }
 
 void Phases::build()
@@ -103,13 +141,43 @@ void Phases::build()
   begin_to_count();
 }
 
-std::unique_ptr<PhaseProgram> Phases::built(const std::set<PhaseKind> &kinds, bool only_from_cache) const
+uint32_t Phases::most_items() const
+{
+  switch (mode_) {
+  case PhaseMode::separate: return 0;
+  case PhaseMode::together:
+  case PhaseMode::resident: return UINT32_MAX;
+  case PhaseMode::automatic: break;
+  }
+  if (context_.info.type != "GPU") return 0;
+  return may_have_resident_groups() ? items_of_resident_phase : items_of_phase;
+}
+
+bool Phases::may_have_resident_groups() const
+{
+  if (is_pocl(context_)) return false; /* its threads take one group after the other */
+  return mode_ == PhaseMode::resident || (mode_ == PhaseMode::automatic && has_fence_between_groups(context_));
+}
+
+/* What a compiler says against the newer language is no reason to do without phases. */
+std::unique_ptr<PhaseProgram> Phases::built(const Wanted &wanted, bool only_from_cache) const
+{
+  const bool resident = may_have_resident_groups() && (wanted.many_items || mode_ == PhaseMode::resident);
+  try {
+    return built(PhaseText(context_, features_, wanted.kinds, resident), only_from_cache);
+  } catch (const BuildError &) {
+    if (!resident || mode_ == PhaseMode::resident) throw;
+    return built(PhaseText(context_, features_, wanted.kinds, false), only_from_cache);
+  }
+}
+
+std::unique_ptr<PhaseProgram> Phases::built(const PhaseText &text, bool only_from_cache) const
 {
   const minicl::ExactFloatingPoint environment; /* inherited by threads that the driver may start */
   try {
-    const PhaseText text(context_, features_, kinds);
     if (only_from_cache && !is_cached(context_, text.program(), text.options)) return nullptr;
-    return std::make_unique<PhaseProgram>(context_, text, group_size_);
+    const uint32_t first = mode_ == PhaseMode::resident ? items_of_first_group_in_tests : items_of_first_group;
+    return std::make_unique<PhaseProgram>(context_, text, group_size_, first);
   } catch (const cl::Error &error) {
     throw DeviceError(fmt::format("OpenCL device {} ({}): creation of kernel run_phases failed: {} {}",
                                   context_.info.device_name, context_.info.platform_name, error.what(),

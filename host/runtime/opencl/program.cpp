@@ -18,9 +18,11 @@
 namespace tandem::opencl {
 namespace {
 
+/* Programs that name no language are in OpenCL C 1.2, which every device knows. */
 std::string all_options(const DeviceContext &context, const std::string &options)
 {
-  return options.empty() ? context.options : context.options + " " + options;
+  const bool names_language = options.find("-cl-std=") != options.npos;
+  return fmt::format("{}{} {}", names_language ? "" : "-cl-std=CL1.2", context.options, options);
 }
 
 /* A binary that its driver no longer accepts is not an error, because the program can be built from source. */

@@ -61,7 +61,7 @@ TEST_CASE("a program of phases has a case for each kind, with the buffers of its
       opencl::phases_source({{Kernel::fill, {Buffer::primitive_a}},
                              {Kernel::copy, {Buffer::primitive_a, Buffer::primitive_b}},
                              {Kernel::scan_in_order, {Buffer::primitive_b, Buffer::primitive_a, Buffer::scan_sums}}},
-                            {Buffer::counts, Buffer::primitive_a, Buffer::primitive_b, Buffer::scan_sums});
+                            {Buffer::counts, Buffer::primitive_a, Buffer::primitive_b, Buffer::scan_sums}, false);
   const auto has = [&](const std::string &part) {
     INFO(text);
     REQUIRE(text.find(part) != text.npos);
@@ -101,6 +101,19 @@ TEST_CASE("the size of the only work-group changes nothing")
   }
 }
 
+TEST_CASE("a series in all groups of a launch, which wait for each other, gives what launches give one by one")
+{
+  const auto serial = make_backend("serial");
+  const std::vector<uint32_t> right = numbers_of(*serial);
+  for (const char *size : {"7", "64", "256"}) {
+    const Environment environment("TANDEM_LOCAL_SIZE", size);
+    const auto resident = prepared_backend("resident");
+    for (int again = 0; again < 3; ++again) REQUIRE(numbers_of(*resident) == right);
+    INFO("PoCL is not asked; parity.oclgrind.resident_groups has several groups without a GPU");
+    REQUIRE((resident->resident_groups() > 1) == (test_device().info.type == "GPU"));
+  }
+}
+
 TEST_CASE("a profile is of single kernels, whose launches are not joined then")
 {
   const auto backend = prepared_backend("together");
@@ -110,7 +123,7 @@ TEST_CASE("a profile is of single kernels, whose launches are not joined then")
   REQUIRE(times[index_of(Kernel::difference)].launches == 199);
 }
 
-TEST_CASE("TANDEM_PHASES takes two words")
+TEST_CASE("TANDEM_PHASES takes three words")
 {
   const Environment environment("TANDEM_PHASES", "joined");
   REQUIRE_THROWS_AS(opencl::make_device_backend("cl", test_device()), InputError);
