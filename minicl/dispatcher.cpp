@@ -20,6 +20,7 @@
 #include <tandem/error.h>
 #include "host/runtime/interface/floating_point.h"
 #include "minicl/kernel_table.h"
+#include "minicl/parallel_region.h"
 #include "minicl/reference_storage.h"
 #include "minicl/thread_sanitizer.h"
 #include "minicl/worker_threads.h"
@@ -54,8 +55,10 @@ const KernelTable *lanes_table(uint32_t lanes)
 
 namespace {
 
-/* The approximate number of items in a task; small kernels stay on one thread. */
-constexpr uint32_t items_per_task = 128;
+/* The approximate number of items in a task; small kernels stay on one thread. Threads that wait for the next launch
+ * of a series cost less than tasks. */
+constexpr uint32_t items_per_task = 128, items_per_part = 32;
+constexpr size_t launches_at_once = 1024; /* a whole step */
 
 /* The table for one item at a time. Width 1 uses the plain one, with which parity tests compare the others. */
 Width scalar_width([[maybe_unused]] const Options &options)
@@ -143,15 +146,11 @@ public:
     if (faults::strikes(faults::Site::launch)) throw std::bad_alloc(); /* as if there were no memory for a task */
     using Clock = std::chrono::steady_clock;
     const Clock::time_point start = profiling_ ? Clock::now() : Clock::time_point(); /* launches may take less */
-    const uint32_t *const count = static_cast<const uint32_t *>(counts);
-    const KernelRow &row = row_of(launch.kernel);
     arguments_.clear();
-    for (size_t i = 0; i < bound.size(); ++i)
-      arguments_.push_back(row.arguments[i].kind == Argument::Kind::value ? const_cast<uint32_t *>(&bound[i].value)
-                                                                          : bound[i].handle);
+    append_arguments(launch, bound, arguments_);
     ++launches;
-    const uint32_t first = count[launch.first], last = count[launch.last];
-    if (row.execution == Execution::group) run_groups(launch.kernel, arguments_.data(), units_of(last - first, TILE));
+    const auto [first, last] = range_of(launch, static_cast<const uint32_t *>(counts));
+    if (is_group(launch.kernel)) run_groups(launch.kernel, arguments_.data(), last);
     else if (last > first) run_items(launch.kernel, arguments_.data(), first, last);
     if (faults::strikes(faults::Site::launch)) throw std::bad_alloc(); /* and as if there were none for the last task */
     if (!profiling_) return;
@@ -160,7 +159,109 @@ public:
     ++time.launches;
   }
 
+  uint32_t most_items_of_series() const override
+  {
+    return threads_ > 1 && order_ == Order::forward && !profiling_ ? UINT32_MAX : 0;
+  }
+  size_t most_launches_of_series() const override { return launches_at_once; }
+
+  /* The arena is opened by the first launch that is split. */
+  void run_series(std::span<const BoundLaunch> series, void *counts) override
+  {
+    if (!arena_ || profiling_) return Backend::run_series(series, counts);
+    for (size_t i = 0; i < 2 * series.size(); ++i)
+      if (faults::strikes(faults::Site::launch)) throw std::bad_alloc();
+    launches += series.size();
+    SeriesOfLaunches rows(*this, series, static_cast<const uint32_t *>(counts));
+    const ExactFloatingPoint environment;
+    region_->begin(rows, most_parts(series));
+    if (!region_->has_ended()) run_region();
+  }
+
 private:
+  static bool is_group(Kernel kernel) { return row_of(kernel).execution == Execution::group; }
+
+  /* Of items, or of groups. */
+  static std::pair<uint32_t, uint32_t> range_of(const Launch &launch, const uint32_t *counts)
+  {
+    const uint32_t first = counts[launch.first], last = counts[launch.last];
+    if (!is_group(launch.kernel)) return {first, last};
+    return {0, units_of(last - first, TILE)};
+  }
+
+  static void append_arguments(const Launch &launch, const std::vector<BoundArgument> &bound,
+                               std::vector<void *> &arguments)
+  {
+    const KernelRow &row = row_of(launch.kernel);
+    for (size_t i = 0; i < bound.size(); ++i)
+      arguments.push_back(row.arguments[i].kind == Argument::Kind::value ? const_cast<uint32_t *>(&bound[i].value)
+                                                                         : bound[i].handle);
+  }
+
+  class SeriesOfLaunches : public LaunchesOfRegion {
+  public:
+    SeriesOfLaunches(MiniclBackend &backend, std::span<const BoundLaunch> series, const uint32_t *counts)
+        : backend_(backend), series_(series), counts_(counts)
+    {
+      backend_.arguments_.clear();
+      backend_.first_argument_.clear();
+      for (const BoundLaunch &bound : series) {
+        backend_.first_argument_.push_back(backend_.arguments_.size());
+        append_arguments(bound.launch, bound.arguments, backend_.arguments_);
+      }
+    }
+    size_t count() const override { return series_.size(); }
+    Range range_of(size_t launch) const override
+    {
+      const Kernel kernel = series_[launch].launch.kernel;
+      const auto [first, last] = MiniclBackend::range_of(series_[launch].launch, counts_);
+      return {first, last, is_group(kernel) ? 1 : items_per_part, backend_.has_lanes(kernel)};
+    }
+    void run(size_t launch, uint32_t first, uint32_t last) override
+    {
+      const Kernel kernel = series_[launch].launch.kernel;
+      void *const *const arguments = backend_.arguments_.data() + backend_.first_argument_[launch];
+      if (is_group(kernel)) backend_.scalar_.at(index_of(kernel))(arguments, first, last);
+      else backend_.run_in_lanes(kernel, arguments, first, last);
+    }
+
+  private:
+    MiniclBackend &backend_;
+    std::span<const BoundLaunch> series_;
+    const uint32_t *counts_;
+  };
+
+  /* Of the largest launch: more threads would come for nothing. */
+  static uint32_t most_parts(std::span<const BoundLaunch> series)
+  {
+    uint32_t most = 1;
+    for (const BoundLaunch &bound : series)
+      most = std::max(most, bound.items / (is_group(bound.launch.kernel) ? TILE : items_per_part) + 1);
+    return most;
+  }
+
+  void run_region()
+  {
+    LaunchOrder order;
+    order.launch_begins();
+    arena_->execute([&, step = uint64_t{step_of_launch}] {
+      tbb::parallel_for(
+          tbb::blocked_range<uint32_t>(0, region_->threads(), 1),
+          [&](const tbb::blocked_range<uint32_t> &thread) TANDEM_UNWATCHED {
+            order.items_begin();
+            step_of_launch = step;
+            note_thread();
+            const ExactFloatingPoint environment;
+            region_->take_part(thread.begin());
+            order.items_end();
+          },
+          tbb::simple_partitioner{});
+    });
+    order.launch_ends();
+  }
+
+  bool has_lanes(Kernel kernel) const { return !lanes_.empty() && lanes_.front().run.at(index_of(kernel)); }
+
   void run_groups(Kernel kernel, void *const *arguments, uint32_t groups)
   {
     const RunRange run = scalar_.at(index_of(kernel));
@@ -173,8 +274,7 @@ private:
   {
     if (order_ != Order::forward) return run_permuted(scalar_.at(index_of(kernel)), arguments, first, last);
     const auto range = [&](uint32_t begin, uint32_t end) { run_in_lanes(kernel, arguments, begin, end); };
-    const bool has_lanes = !lanes_.empty() && lanes_.front().run.at(index_of(kernel));
-    if (has_lanes) parallel(first, last, items_per_task, tbb::static_partitioner{}, range);
+    if (has_lanes(kernel)) parallel(first, last, items_per_task, tbb::static_partitioner{}, range);
     else parallel(first, last, items_per_task, tbb::auto_partitioner{}, range);
   }
 
@@ -223,7 +323,10 @@ private:
   void open_arena()
   {
     const size_t granted = settle_threads();
-    if (!arena_) arena_.emplace(static_cast<int>(std::min<size_t>(threads_, granted)));
+    if (arena_) return;
+    const auto threads = static_cast<uint32_t>(std::min<size_t>(threads_, granted));
+    arena_.emplace(static_cast<int>(threads));
+    region_.emplace(threads);
   }
 
   /* The bit is set without ordering threads, because the thread sanitizer would otherwise not see races. */
@@ -250,14 +353,16 @@ private:
   std::string name_;
   Order order_;
   std::optional<tbb::task_arena> arena_; /* opened by the first launch that is split */
+  std::optional<ParallelRegion> region_; /* of as many threads as the arena */
   uint32_t threads_;
   struct Lanes {
     uint32_t width;
     std::vector<RunRange> run; /* by the kernel's number */
   };
-  std::vector<RunRange> scalar_;  /* by the kernel's number */
-  std::vector<Lanes> lanes_;      /* from the widest; none: one item at a time */
-  std::vector<void *> arguments_; /* of the launch, so that it allocates nothing */
+  std::vector<RunRange> scalar_;       /* by the kernel's number */
+  std::vector<Lanes> lanes_;           /* from the widest; none: one item at a time */
+  std::vector<void *> arguments_;      /* of the launch or the series, so that it allocates nothing */
+  std::vector<size_t> first_argument_; /* of each launch of the series */
   Storage &storage_;
   std::atomic<uint32_t> threads_seen_ = 0;
   bool profiling_ = false;

@@ -1,0 +1,133 @@
+/* parallel_region.cpp - see parallel_region.h. */
+#include "minicl/parallel_region.h"
+
+#include <algorithm>
+#include <thread>
+
+#if defined(__x86_64__)
+#include <immintrin.h>
+#endif
+
+namespace tandem::minicl {
+namespace {
+
+constexpr uint32_t looks_until_help = 256, looks_until_yield = 2048;
+constexpr uint32_t parts_of_thread = 8; /* where items differ, so that threads end together */
+constexpr uint32_t widest_lanes_of_all = 16;
+
+void pause_briefly()
+{
+#if defined(__x86_64__)
+  _mm_pause();
+#elif defined(__aarch64__)
+  __asm__ volatile("yield");
+#endif
+}
+
+} // namespace
+
+ParallelRegion::ParallelRegion(uint32_t most_threads) : shares_(most_threads) {}
+
+void ParallelRegion::begin(LaunchesOfRegion &launches, uint32_t threads)
+{
+  threads_ = std::clamp<uint32_t>(threads, 1, static_cast<uint32_t>(shares_.size()));
+  launches_ = &launches;
+  phases_ = launches.count();
+  if (phases_ > room_) {
+    phase_ = std::make_unique<Phase[]>(phases_);
+    room_ = phases_;
+  }
+  for (size_t launch = 0; launch < phases_; ++launch) {
+    phase_[launch].next.store(0, std::memory_order_relaxed);
+    phase_[launch].done.store(0, std::memory_order_relaxed);
+  }
+  present_.store(0, std::memory_order_relaxed);
+  for (Share &share : shares_) share.taken.store(0, std::memory_order_relaxed);
+  open_after(SIZE_MAX);
+}
+
+/* It is called by the one thread that ended the launch before. */
+void ParallelRegion::open_after(size_t launch)
+{
+  for (++launch; launch < phases_; ++launch) {
+    Phase &phase = phase_[launch];
+    phase.range = launches_->range_of(launch);
+    phase.parts = parts_of(phase.range);
+    if (phase.parts > 1) break;
+    if (phase.parts == 1) launches_->run(launch, phase.range.first, phase.range.last);
+  }
+  open_.store(launch, std::memory_order_release);
+}
+
+uint32_t ParallelRegion::parts_of(const LaunchesOfRegion::Range &range) const
+{
+  const uint32_t items = range.last > range.first ? range.last - range.first : 0;
+  const uint32_t most = range.stays_on_thread ? threads_ : threads_ * parts_of_thread;
+  return std::min((items + range.items_of_part - 1) / range.items_of_part, items > 0 ? most : 0);
+}
+
+/* Parts end at whole lanes, because what is left of them runs item by item. */
+void ParallelRegion::run_part(size_t launch, uint32_t part)
+{
+  Phase &phase = phase_[launch];
+  const uint64_t items = phase.range.last - phase.range.first;
+  const auto end_of = [&](uint64_t parts) {
+    const uint64_t end = items * parts / phase.parts;
+    return parts == phase.parts          ? items
+           : phase.range.stays_on_thread ? end / widest_lanes_of_all * widest_lanes_of_all
+                                         : end;
+  };
+  const uint32_t first = phase.range.first + static_cast<uint32_t>(end_of(part)),
+                 last = phase.range.first + static_cast<uint32_t>(end_of(part + uint64_t{1}));
+  if (first < last) launches_->run(launch, first, last);
+  if (phase.done.fetch_add(1, std::memory_order_acq_rel) + 1 == phase.parts) open_after(launch);
+}
+
+void ParallelRegion::run_any_parts(size_t launch)
+{
+  Phase &phase = phase_[launch];
+  const uint32_t parts =
+      phase.parts; /* the phase ends with the last part, and its room may be taken by another series */
+  for (uint32_t part = phase.next.fetch_add(1, std::memory_order_relaxed); part < parts;
+       part = phase.next.fetch_add(1, std::memory_order_relaxed))
+    run_part(launch, part);
+}
+
+void ParallelRegion::run_share(size_t launch, uint32_t thread)
+{
+  std::atomic<size_t> &taken = shares_[thread].taken;
+  size_t until = taken.load(std::memory_order_relaxed);
+  if (until > launch || !taken.compare_exchange_strong(until, launch + 1, std::memory_order_acq_rel)) return;
+  run_part(launch, thread);
+}
+
+/* A thread that has not come, or that the system does not run, is helped. */
+void ParallelRegion::run_shares_left(size_t launch)
+{
+  const uint32_t parts = phase_[launch].parts;
+  for (uint32_t thread = 0; thread < parts; ++thread) run_share(launch, thread);
+}
+
+void ParallelRegion::wait_for_end_of(size_t launch)
+{
+  const bool has_shares = phase_[launch].range.stays_on_thread;
+  if (has_shares && present_.load(std::memory_order_relaxed) < threads_) run_shares_left(launch);
+  for (uint32_t looks = 1; open_.load(std::memory_order_acquire) == launch; ++looks)
+    if (looks % looks_until_help == 0 && has_shares) run_shares_left(launch);
+    else if (looks < looks_until_yield) pause_briefly();
+    else std::this_thread::yield();
+}
+
+void ParallelRegion::take_part(uint32_t thread)
+{
+  present_.fetch_add(1, std::memory_order_relaxed);
+  for (size_t launch = open_.load(std::memory_order_acquire); launch < phases_;
+       launch = open_.load(std::memory_order_acquire)) {
+    const Phase &phase = phase_[launch];
+    if (!phase.range.stays_on_thread) run_any_parts(launch);
+    else if (thread < phase.parts) run_share(launch, thread);
+    wait_for_end_of(launch);
+  }
+}
+
+} // namespace tandem::minicl

@@ -1,0 +1,129 @@
+/* A region runs every item of a series once, launch after launch, whoever comes, late or not at all. */
+#include <chrono>
+#include <numeric>
+#include <thread>
+
+#include "host/base/random.h"
+#include "minicl/parallel_region.h"
+#include "tests/catch.h"
+
+using namespace tandem;
+using namespace tandem::minicl;
+
+namespace {
+
+/* Each launch computes its items from all that the one before wrote, which also says how many items it has. */
+class Chain : public LaunchesOfRegion {
+public:
+  Chain(size_t launches, uint64_t seed) : written_(launches), runs_(launches)
+  {
+    Random random(seed);
+    for (size_t launch = 0; launch < launches; ++launch) {
+      most_.push_back(random.below(3) == 0 ? 0 : random.below(900));
+      items_of_part_.push_back(1 + random.below(60));
+      stays_.push_back(random.uniform(0, 1) < 0.5);
+    }
+  }
+  size_t count() const override { return most_.size(); }
+  Range range_of(size_t launch) const override
+  {
+    return {offset, offset + items(launch), items_of_part_[launch], stays_[launch]};
+  }
+  void run(size_t launch, uint32_t first, uint32_t last) override
+  {
+    if (launch == slow_launch) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    std::vector<uint64_t> &numbers = numbers_[launch % 2];
+    for (uint32_t item = first - offset; item < last - offset; ++item)
+      numbers[item] = 6364136223846793005u * (sum_before(launch, item) + item) + launch;
+    written_[launch].fetch_add(last - first);
+    ++runs_[launch];
+  }
+
+  uint64_t result()
+  {
+    uint64_t sum = 0;
+    for (size_t launch = 0; launch < count(); ++launch) {
+      REQUIRE(written_[launch] == items(launch));
+      sum = 31 * sum + items(launch);
+    }
+    for (const auto &numbers : numbers_) sum = std::accumulate(numbers.begin(), numbers.end(), sum);
+    return sum;
+  }
+  uint32_t most_runs_of_a_launch() const
+  {
+    uint32_t most = 0;
+    for (const auto &runs : runs_) most = std::max(most, runs.load());
+    return most;
+  }
+
+private:
+  static constexpr uint32_t offset = 5;
+  static constexpr size_t slow_launch = 40;
+
+  uint32_t items(size_t launch) const
+  {
+    if (launch == 0) return most_[0];
+    return most_[launch] == 0
+               ? 0
+               : most_[launch] - static_cast<uint32_t>(numbers_[(launch + 1) % 2][0] % (most_[launch] / 2 + 1));
+  }
+  uint64_t sum_before(size_t launch, uint32_t item) const
+  {
+    const std::vector<uint64_t> &before = numbers_[(launch + 1) % 2];
+    return before[item] + before[(item * 7) % before.size()] + before[(item * 13 + 1) % before.size()];
+  }
+
+  std::vector<uint32_t> most_, items_of_part_;
+  std::vector<bool> stays_;
+  std::vector<std::atomic<uint32_t>> written_, runs_;
+  std::vector<uint64_t> numbers_[2] = {std::vector<uint64_t>(1000, 1), std::vector<uint64_t>(1000, 2)};
+};
+
+uint64_t in_order(size_t launches, uint64_t seed)
+{
+  Chain chain(launches, seed);
+  for (size_t launch = 0; launch < launches; ++launch) {
+    const Chain::Range range = chain.range_of(launch);
+    if (range.first < range.last) chain.run(launch, range.first, range.last);
+  }
+  return chain.result();
+}
+
+} // namespace
+
+TEST_CASE("a parallel region runs a series as one thread would, whoever comes")
+{
+  for (const uint32_t room : {1u, 2u, 3u, 8u})
+    for (const uint32_t present : {1u, 2u, 8u}) {
+      if (present > room) continue;
+      CAPTURE(room, present);
+      ParallelRegion region(room);
+      for (uint64_t seed = 1; seed <= 6; ++seed) {
+        const size_t launches = 50 * seed;
+        Chain chain(launches, seed);
+        region.begin(chain, room);
+        std::vector<std::thread> threads;
+        for (uint32_t thread = 0; thread < present; ++thread)
+          threads.emplace_back([&region, thread] {
+            if (thread % 2 == 1) std::this_thread::sleep_for(std::chrono::microseconds(300 * thread));
+            region.take_part(thread);
+          });
+        for (std::thread &thread : threads) thread.join();
+        REQUIRE(region.has_ended());
+        REQUIRE(chain.result() == in_order(launches, seed));
+        if (room == 1) REQUIRE(chain.most_runs_of_a_launch() == 1);
+      }
+    }
+}
+
+TEST_CASE("a parallel region of no launches, and one of small ones, has ended when it begins")
+{
+  ParallelRegion region(4);
+  Chain none(0, 1);
+  region.begin(none, 4);
+  REQUIRE(region.has_ended());
+  Chain alone(100, 2);
+  region.begin(alone, 1);
+  REQUIRE(region.has_ended());
+  REQUIRE(alone.result() == in_order(100, 2));
+}
