@@ -10,9 +10,9 @@
 
 #include <tandem/world.h>
 
-#include "host/io/input_file.h"
 #include "host/runtime/backend_list.h"
 #include "tools/command/command.h"
+#include "tools/command/marked_table.h"
 #include "tools/command/output.h"
 #include "tools/command/parallel.h"
 #include "tools/command/progress.h"
@@ -29,9 +29,10 @@ using stability::Case;
 using stability::Length;
 
 struct StabilityOptions {
-  std::string only, except, solvers, on = "tbb", out, between, into;
+  std::string only, except, solvers, on = "tbb", out, between;
   size_t at_once = 0; /* 0: one for each processor */
   bool quick = false, list = false, inexact = false, bounds = false;
+  MarkedTable table;
   JsonOutput json;
 };
 
@@ -127,7 +128,7 @@ std::string command_text(const StabilityOptions &options, bool files = true)
   add("--on", options.on == "tbb" ? "" : options.on);
   if (options.at_once > 0) text += fmt::format(" --cases-in-parallel {}", options.at_once);
   if (files) add("--out", options.out);
-  if (files) add("--table-in", options.into);
+  if (files) add("--table-in", options.table.path);
   return text + (options.quick ? " --quick" : "") + (options.bounds ? " --bounds" : "");
 }
 
@@ -187,15 +188,6 @@ void tell_end(const StabilityOptions &options, const stability::Results &results
   fmt::print("{}/index.html\n", options.out);
 }
 
-/* The marks in the page are checked before the first case runs, too. The page is read again at the end, because it may
- * have been edited during a full run. */
-std::string page_for_table(const std::string &path)
-{
-  const std::string text = read_file(path);
-  stability::with_table(text, "", path);
-  return text;
-}
-
 int run_cases(const StabilityOptions &options)
 {
   const std::vector<const Case *> cases = chosen_cases(options);
@@ -208,8 +200,7 @@ int run_cases(const StabilityOptions &options)
   check_backend(placement);
   prepare_folder(options.out, files);
   options.json.check(files);
-  if (!options.into.empty()) page_for_table(options.into);
-  files.writes("--table-in", options.into);
+  options.table.check(files);
   size_t told = 0;
   const stability::Results results = stability::run_batch({cases, solvers, placement, length, runs_at_once(options)},
                                                           [&](const stability::Results &so_far) {
@@ -220,10 +211,7 @@ int run_cases(const StabilityOptions &options)
   const Json json = stability::results_json(results);
   write_file("--out", options.out + "/figures.csv", stability::series_csv(results));
   write_file("--out", options.out + "/index.html", stability::results_page(results, command_text(options)));
-  if (!options.into.empty())
-    write_file("--table-in", options.into,
-               stability::with_table(page_for_table(options.into),
-                                     stability::markdown_of(results, command_text(options, false)), options.into));
+  options.table.write(stability::markdown_of(results, command_text(options, false)));
   if (!options.json.takes_standard_output()) tell_end(options, results);
   options.json.write(json);
   const int status = options.bounds ? conclude_bounds(results) : 0;
@@ -305,7 +293,9 @@ Command stability_command(CLI::App &parser)
                    "runs side by side (default: one for each processor; on devices one)")
       ->type_name("N")
       ->check(CLI::Range(1, 1024));
-  command->add_option("--table-in", options->into, "write the table of the run between the marks of this Markdown page")
+  command
+      ->add_option("--table-in", options->table.path,
+                   "write the table of the run between the marks of this Markdown page")
       ->type_name("FILE");
   command->add_flag("--bounds", options->bounds,
                     "list figure, bound and ratio of every check; status 1 if a ratio above ten states no derivation");

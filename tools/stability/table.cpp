@@ -1,4 +1,4 @@
-/* table.cpp - writes the table as Markdown and inserts it into a page; see table.h. */
+/* table.cpp - writes the table as Markdown; see table.h. */
 #include "tools/stability/table.h"
 
 #include <cmath>
@@ -10,8 +10,6 @@
 
 namespace tandem::stability {
 namespace {
-
-const char *const begins = "<!-- table: begin -->\n", *const ends = "<!-- table: end -->\n";
 
 /* A cell such as "deepest contact 0.00119 of 0.0058 m (4.9)"; the ratio is omitted if it is meaningless. */
 std::string check_cell(const CheckResult &check)
@@ -62,15 +60,6 @@ std::string markdown_of(const Results &results, const std::string &command)
   for (size_t k = 0; k < results.results.size(); ++k)
     if (k == 0 || results.results[k].which.name != results.results[k - 1].which.name) text += row_of(results, k);
   return text;
-}
-
-std::string with_table(const std::string &page, const std::string &table, const std::string &where)
-{
-  const size_t begin = page.find(begins), end = page.find(ends);
-  if (begin == std::string::npos || end == std::string::npos || end < begin)
-    throw InputError(where + ": it must hold the lines '<!-- table: begin -->' and '<!-- table: end -->', between "
-                             "which the table is written");
-  return page.substr(0, begin) + begins + table + page.substr(end);
 }
 
 } // namespace tandem::stability

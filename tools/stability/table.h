@@ -9,7 +9,4 @@ namespace tandem::stability {
  * every solver. */
 std::string markdown_of(const Results &results, const std::string &command);
 
-/* The page with the text between its two marks replaced by `table`. Throws InputError if it has no such marks. */
-std::string with_table(const std::string &page, const std::string &table, const std::string &where);
-
 } // namespace tandem::stability

@@ -283,14 +283,6 @@ TEST_CASE("stability: what passes only as documented counts apart, and shows wha
   CHECK(table.find("solver direct; by default FAIL 2.") != std::string::npos);
 }
 
-TEST_CASE("stability: the table is written between the marks of a page, which must have them", "[stability]")
-{
-  const std::string begin = "<!-- table: begin -->\n", end = "<!-- table: end -->\n";
-  CHECK(with_table("a\n" + begin + "old\n" + end + "z\n", "new\n", "page.md") == "a\n" + begin + "new\n" + end + "z\n");
-  CHECK_THROWS_AS(with_table("a\n" + end + begin, "new\n", "page.md"), InputError);
-  CHECK_THROWS_AS(with_table("a\n", "new\n", "page.md"), InputError);
-}
-
 TEST_CASE("stability: 'it stands' notices a box that is knocked out, tilted, or pressed into another", "[stability]")
 {
   const auto pyramid = [](uint32_t body, const std::function<void(BodyState &)> &push) {
