@@ -5,6 +5,7 @@
 #include <memory>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <tandem/world.h>
 
@@ -15,10 +16,12 @@
 #include "tools/bench/narrowphase.h"
 #include "tools/bench/primitives.h"
 #include "tools/bench/rays.h"
+#include "tools/bench/scenes.h"
 #include "tools/bench/sleeping.h"
 #include "tools/bench/snapshots.h"
 #include "tools/bench/support.h"
 #include "tools/command/command.h"
+#include "tools/command/marked_table.h"
 #include "tools/command/measure.h"
 #include "tools/command/output.h"
 #include "tools/command/progress.h"
@@ -28,7 +31,7 @@ namespace tandem {
 namespace {
 
 struct BenchOptions {
-  std::string what, on = "tbb", count, chart;
+  std::string what, on = "tbb", count, steps, chart, table;
   std::vector<std::string> pairs, broadphases, scenes;
   bool inexact = false;
   JsonOutput json;
@@ -191,6 +194,47 @@ int execute_bodies(const BenchOptions &options)
   return 0;
 }
 
+/* The command line that repeats the run, for the page that gets its table. */
+std::string scenes_command_text(const BenchOptions &options)
+{
+  std::string text = fmt::format("tandem bench scenes --on {}", options.on);
+  if (!options.scenes.empty()) text += fmt::format(" --scene {}", fmt::join(options.scenes, ","));
+  if (!options.steps.empty()) text += " --steps " + options.steps;
+  return text + " --table-in " + options.table;
+}
+
+ScenesRequest scenes_request(const BenchOptions &options)
+{
+  ScenesRequest request;
+  request.scenes = scene_names(options.scenes);
+  request.placement = {options.on, {}, options.inexact};
+  if (!options.steps.empty()) request.steps = whole_number("--steps", options.steps, 1, 100000);
+  return request;
+}
+
+/* The exit status is 1 if a scene failed; its row says so, and those of the others stand. */
+int execute_scenes(const BenchOptions &options)
+{
+  const ScenesRequest request = scenes_request(options);
+  const MarkedTable table{options.table, options.on}; /* a page may have a table of each backend */
+  DistinctFiles files;
+  options.json.check(files);
+  table.check(files);
+  const std::vector<SceneCost> costs = bench_scenes(request);
+  if (!options.json.takes_standard_output())
+    fmt::print("scenes on {}: medians of {} steps after {}\n{}", options.on, request.steps, scene_warm_steps,
+               scenes_text(costs));
+  table.write(fmt::format("```\n{}\n```\n{}", scenes_command_text(options), scenes_markdown(costs)));
+  options.json.write({{"what", options.what},
+                      {"backend", options.on},
+                      {"steps", request.steps},
+                      {"kernels", kernel_count},
+                      {"scenes", scenes_json(costs)}});
+  const std::vector<std::string> failures = failures_of(costs);
+  for (const std::string &line : failures) fmt::print(stderr, "tandem: {}\n", line);
+  return failures.empty() ? 0 : 1;
+}
+
 /* The exit status is 1 if hill climbing ever ends at another vertex. */
 int execute_support(const BenchOptions &options)
 {
@@ -224,29 +268,31 @@ Json result_json(const BenchOptions &options, const Result &result)
                {"backend", options.on},
                {"n", result.items},
                {"unit", result.item},
-               {"ms", {{"median", time.median}, {"min", time.minimum}, {"max", time.maximum}}},
+               {"ms", spread_json(time)},
                {"items_per_second", static_cast<double>(result.items) / std::max(time.median, 1e-9) * 1e3}};
   json.update(result.details);
   return json;
 }
 
 constexpr const char *benchmarks = "sort, scan, broadphase, batching, narrowphase, rays, support, snapshots, "
-                                   "sleeping, bodies or step";
+                                   "sleeping, bodies, scenes or step";
 
 /* Throws InputError for options of one benchmark that are given to another. */
 void check_options(const BenchOptions &options)
 {
-  if (!options.pairs.empty() && options.what != "narrowphase")
-    throw InputError(
-        fmt::format("--pairs names kinds of bench narrowphase; bench {} has none, leave it out", options.what));
-  if (options.what == "broadphase") return;
-  const auto refuse = [&](const char *option, bool given) {
-    if (given)
-      throw InputError(fmt::format("{} is of bench broadphase; bench {} has none, leave it out", option, options.what));
+  const auto only_of = [&](const char *option, bool given, const std::vector<std::string> &takers) {
+    if (given && std::find(takers.begin(), takers.end(), options.what) == takers.end())
+      throw InputError(fmt::format("{} is of bench {}; bench {} has none, leave it out", option,
+                                   fmt::join(takers, " and "), options.what));
   };
-  refuse("--broadphase", !options.broadphases.empty());
-  refuse("--scene", !options.scenes.empty());
-  refuse("--chart", !options.chart.empty());
+  only_of("--pairs", !options.pairs.empty(), {"narrowphase"});
+  only_of("--broadphase", !options.broadphases.empty(), {"broadphase"});
+  only_of("--chart", !options.chart.empty(), {"broadphase"});
+  only_of("--scene", !options.scenes.empty(), {"broadphase", "scenes"});
+  only_of("--steps", !options.steps.empty(), {"scenes"});
+  only_of("--table-in", !options.table.empty(), {"scenes"});
+  if (options.what == "scenes" && !options.count.empty())
+    throw InputError("--n: the scenes of bench scenes have the numbers of bodies of `tandem scenes`; leave it out");
 }
 
 int execute(const BenchOptions &options)
@@ -260,6 +306,7 @@ int execute(const BenchOptions &options)
   if (options.what == "snapshots") return execute_snapshots(options);
   if (options.what == "sleeping") return execute_sleeping(options);
   if (options.what == "bodies") return execute_bodies(options);
+  if (options.what == "scenes") return execute_scenes(options);
   const bool step = options.what == "step";
   if (!step && options.what != "sort" && options.what != "scan")
     throw InputError(fmt::format("bench '{}' is unknown; use {}", options.what, benchmarks));
@@ -276,8 +323,9 @@ int execute(const BenchOptions &options)
 
 Command bench_command(CLI::App &parser)
 {
-  CLI::App *command = parser.add_subcommand("bench", "time one part by itself: sort, scan, broadphase, batching, "
-                                                     "narrowphase, rays, support, snapshots, sleeping, bodies, step");
+  CLI::App *command =
+      parser.add_subcommand("bench", "time one part by itself: sort, scan, broadphase, batching, "
+                                     "narrowphase, rays, support, snapshots, sleeping, bodies, scenes, step");
   auto options = std::make_shared<BenchOptions>();
   command
       ->add_option("WHAT", options->what,
@@ -285,7 +333,8 @@ Command bench_command(CLI::App &parser)
                    "(scenes of the talks; box-grid with --n), narrowphase (pairs of shapes), rays (against 100,000 "
                    "boxes), support (farthest vertices of hulls), snapshots (states kept on the device, and saved to "
                    "the host), sleeping (one island awake among bodies that sleep), bodies (that come and go, and "
-                   "one that is read), step (box-grid)")
+                   "one that is read), scenes (what every built-in scene takes: kernels, launches, memory, time), step "
+                   "(box-grid)")
       ->required()
       ->type_name("");
   command->add_option("--on", options->on, "backend")->type_name("B")->capture_default_str();
@@ -303,10 +352,20 @@ Command bench_command(CLI::App &parser)
       ->delimiter(',')
       ->check(CLI::IsMember(choice_names<Broadphase>()))
       ->type_name("NAME,...");
-  command->add_option("--scene", options->scenes, "broadphase: these inputs alone, as spheres,pile")
+  command
+      ->add_option("--scene", options->scenes,
+                   "broadphase: these inputs alone, as spheres,pile; scenes: these built-in scenes alone")
       ->delimiter(',')
-      ->check(CLI::IsMember(broadphase_input_names()))
       ->type_name("NAME,...");
+  command
+      ->add_option("--steps", options->steps,
+                   fmt::format("scenes: how many steps are timed, after {} of warm-up; {} unless given",
+                               scene_warm_steps, scene_timed_steps))
+      ->type_name("N");
+  command
+      ->add_option("--table-in", options->table,
+                   "scenes: write the table between the marks of this Markdown page, which name the backend")
+      ->type_name("FILE.md");
   command->add_option("--chart", options->chart, "broadphase: write charts of time over bodies, one a scene")
       ->type_name("FILE.svg");
   command->add_flag("--inexact", options->inexact, "accept devices that fail the exactness self-test");

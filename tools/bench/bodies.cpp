@@ -53,11 +53,6 @@ std::vector<Body> new_boxes(uint64_t count)
   return bodies;
 }
 
-Json json_of_spread(const Spread &spread)
-{
-  return {{"median", spread.median}, {"min", spread.minimum}, {"max", spread.maximum}};
-}
-
 } // namespace
 
 BodyTimes bench_bodies(const std::string &backend, uint64_t bodies, bool allow_inexact)
@@ -110,11 +105,11 @@ Json bodies_json(const std::vector<BodyTimes> &times)
   for (const BodyTimes &row : times)
     json.push_back({{"bodies", row.bodies},
                     {"first_create_ms", row.grow},
-                    {"create_ms", json_of_spread(row.create)},
-                    {"create_singly_ms", json_of_spread(row.create_singly)},
-                    {"step_after_create_ms", json_of_spread(row.step_after_create)},
-                    {"destroy_ms", json_of_spread(row.destroy)},
-                    {"read_ms", json_of_spread(row.read)}});
+                    {"create_ms", spread_json(row.create)},
+                    {"create_singly_ms", spread_json(row.create_singly)},
+                    {"step_after_create_ms", spread_json(row.step_after_create)},
+                    {"destroy_ms", spread_json(row.destroy)},
+                    {"read_ms", spread_json(row.read)}});
   return json;
 }
 

@@ -64,11 +64,6 @@ std::vector<double> steps_until_asleep(World &world, uint64_t bodies)
 
 Spread spread_or_none(const std::vector<double> &times) { return times.empty() ? Spread{} : spread_of(times); }
 
-Json spread_json_of(const Spread &spread)
-{
-  return {{"median", spread.median}, {"min", spread.minimum}, {"max", spread.maximum}};
-}
-
 } // namespace
 
 SleepTimes bench_sleeping(const std::string &backend, uint64_t bodies, bool allow_inexact)
@@ -120,12 +115,12 @@ Json sleeping_json(const std::vector<SleepTimes> &times)
   Json json = Json::array();
   for (const SleepTimes &row : times)
     json.push_back({{"bodies", row.bodies},
-                    {"awake_ms", spread_json_of(row.awake)},
-                    {"asleep_ms", spread_json_of(row.asleep)},
-                    {"island_ms", spread_json_of(row.island)},
-                    {"wake_ms", spread_json_of(row.wake)},
-                    {"fall_ms", spread_json_of(row.fall)},
-                    {"read_ms", spread_json_of(row.read)}});
+                    {"awake_ms", spread_json(row.awake)},
+                    {"asleep_ms", spread_json(row.asleep)},
+                    {"island_ms", spread_json(row.island)},
+                    {"wake_ms", spread_json(row.wake)},
+                    {"fall_ms", spread_json(row.fall)},
+                    {"read_ms", spread_json(row.read)}});
   return json;
 }
 

@@ -56,11 +56,6 @@ void time_snapshots(World &world, SnapshotTimes &times)
   times.restore = spread_of(restore);
 }
 
-Json spread_json(const Spread &spread)
-{
-  return {{"median", spread.median}, {"min", spread.minimum}, {"max", spread.maximum}};
-}
-
 } // namespace
 
 double SnapshotTimes::save_gigabytes_per_second() const

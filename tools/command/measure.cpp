@@ -66,7 +66,8 @@ double profiled_step(World &world, StageTimes &stages)
   return milliseconds;
 }
 
-/* Kernels that a long run builds while it runs are built before. It goes on without those that cannot be built. */
+} // namespace
+
 void prepare_for_timing(World &world)
 {
   try {
@@ -75,8 +76,6 @@ void prepare_for_timing(World &world)
     fmt::print(stderr, "tandem: launches are not joined: {}\n", error.what());
   }
 }
-
-} // namespace
 
 double timed_step(World &world)
 {
@@ -95,6 +94,11 @@ Spread spread_of(std::vector<double> values)
   const size_t middle = values.size() / 2;
   const double median = values.size() % 2 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
   return {median, values.front(), values.back()};
+}
+
+Json spread_json(const Spread &spread)
+{
+  return {{"median", spread.median}, {"min", spread.minimum}, {"max", spread.maximum}};
 }
 
 Measurement measure(World &world, uint64_t steps, const std::function<void(uint64_t done)> &after_step)

@@ -15,12 +15,15 @@
 
 #include <tandem/world.h>
 
+#include "tools/command/output.h"
+
 namespace tandem {
 
 struct Spread {
   double median = 0, minimum = 0, maximum = 0;
 };
 Spread spread_of(std::vector<double> values); /* zeros if there are no values */
+Json spread_json(const Spread &spread);
 
 struct StageTime {
   std::string name;
@@ -34,6 +37,10 @@ struct Measurement {
   uint64_t timed_steps = 0, profiled_steps = 0;
   double launches = 0; /* a timed step, on average */
 };
+
+/* Builds before what a long run builds while it runs, so that no timed step waits for it. Goes on without kernels that
+ * cannot be built, and says so. */
+void prepare_for_timing(World &world);
 
 /* The time of one step in ms; the clock is read with all devices finished. */
 double timed_step(World &world);
