@@ -84,6 +84,8 @@ std::unique_ptr<World> Lockstep::make_world(size_t index) const
 {
   Placement placement = request_.placement;
   placement.build_in_background = false; /* what is compared must run where it was asked to */
+  placement.on = request_.backends.front();
+  placement.broadphase_for = broadphase_backend(placement); /* individual choices could differ, and other kernels run */
   placement.on = request_.backends[index];
   if (!request_.snapshot.empty()) return std::make_unique<World>(request_.snapshot, placement);
   return std::make_unique<World>(scene_, request_.settings, placement);
@@ -225,6 +227,8 @@ Comparison Lockstep::run()
   }
   result_.equal = !result_.first_difference;
   result_.quarantined = worlds[0]->quarantined();
+  result_.broadphase = worlds[0]->settings().broadphase;
+  result_.broadphase_why = worlds[0]->broadphase_why();
   return result_;
 }
 
@@ -273,16 +277,7 @@ FaultInjector inject_fault(const InjectedFault &error, std::string *missing)
 Comparison compare_backends(const Scene &scene, const ComparisonRequest &request)
 {
   if (request.backends.size() < 2) throw InputError("comparing takes at least two backends: serial,tbb");
-  BroadphaseChoice choice{request.settings.broadphase, "as asked"};
-  if (choice.broadphase == Broadphase::automatic)
-    choice = choose_broadphase(scene, request.backends.front()); /* individual choices could differ, and other kernels
-                                                                    would run */
-  ComparisonRequest decided = request;
-  decided.settings.broadphase = choice.broadphase;
-  Comparison comparison = Lockstep(scene, decided).run();
-  comparison.broadphase = choice.broadphase;
-  comparison.broadphase_why = choice.why;
-  return comparison;
+  return Lockstep(scene, request).run();
 }
 
 } // namespace tandem

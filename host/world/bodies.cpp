@@ -116,7 +116,8 @@ class World::Implementation::LayoutBackup {
 public:
   explicit LayoutBackup(Implementation &world)
       : world_(&world), special_(world.special), features_(world.scene_features), hulls_(world.hulls),
-        trees_(world.trees), plan_(world.plan), entries_(world.scene_entries), needs_(world.buffers.needs()),
+        trees_(world.trees), plan_(world.plan), broadphase_(world.settings.broadphase), chosen_for_(world.chosen_for),
+        broadphase_why_(world.broadphase_why), entries_(world.scene_entries), needs_(world.buffers.needs()),
         slots_(world.slots), shapes_(world.uploaded_shapes), materials_(world.uploaded_materials)
   {}
   ~LayoutBackup()
@@ -127,6 +128,9 @@ public:
     world_->hulls = hulls_;
     world_->trees = std::move(trees_);
     world_->plan = plan_;
+    world_->settings.broadphase = broadphase_;
+    world_->chosen_for = std::move(chosen_for_);
+    world_->broadphase_why = std::move(broadphase_why_);
     world_->scene_entries = std::move(entries_);
     world_->buffers.give_back_needs(std::move(needs_));
     world_->slots = std::move(slots_);
@@ -144,6 +148,8 @@ private:
   HullSizes hulls_;
   TreeTables trees_;
   StepPlan plan_;
+  Broadphase broadphase_;
+  std::string chosen_for_, broadphase_why_;
   std::vector<std::pair<int, uint32_t>> entries_;
   StepBuffers::Needs needs_;
   BodySlots slots_;
@@ -373,6 +379,7 @@ void World::Implementation::plan_layout(const Arrival &arrival, std::vector<uint
   plan.capacity_cells = cells_for(plan.bodies);
   scene_entries = entries_of({special.awake, special.unbounded, special.large, sleepers.count()});
   counted_bodies = special.awake;
+  choose_broadphase_after(settings.broadphase);
   record_kernels();
   backends.take_features(special.features, buffers.needs().kernels);
   buffers.changed();

@@ -8,7 +8,6 @@
 #include <tandem/error.h>
 
 #include "host/pipeline/broadphases/broadphase.h"
-#include "host/pipeline/broadphases/choice.h"
 #include "host/pipeline/scene_counts.h"
 #include "host/pipeline/setting_rows.h"
 #include "host/runtime/interface/module.h"
@@ -17,17 +16,6 @@
 #include "shared/batching/limits.h"
 
 namespace tandem {
-namespace {
-
-Settings resolved(Settings settings, const Scene &scene, const Placement &placement)
-{
-  if (settings.broadphase == Broadphase::automatic)
-    settings.broadphase = choose_broadphase(scene, placement.on).broadphase;
-  return settings;
-}
-
-} // namespace
-
 namespace {
 
 Velocity initial_velocity_of(const Body &body) { return {body.linear_velocity, body.angular_velocity}; }
@@ -47,21 +35,20 @@ void check_solver(const Settings &settings, const Body &body, size_t index, cons
                                  where, index));
 }
 
-World::Implementation::Beginning World::Implementation::beginning_of(const Scene &given, const Settings &chosen,
-                                                                     const Placement &placement)
+World::Implementation::Beginning World::Implementation::beginning_of(const Scene &given, const Settings &chosen)
 {
   const auto bodies = static_cast<uint32_t>(given.bodies.size());
   const uint32_t pairs = first_capacity(given, chosen);
-  return {given, resolved(chosen, given, placement), specialise(given, chosen), BodySlots(bodies), bodies, pairs,
-          false};
+  return {given, chosen, specialise(given, chosen), BodySlots(bodies), bodies, pairs, false};
 }
 
 World::Implementation::Implementation(const Scene &given, const Settings &chosen, const Placement &placement)
-    : Implementation(beginning_of(given, chosen, placement), placement)
+    : Implementation(beginning_of(given, chosen), placement)
 {}
 
 World::Implementation::Implementation(Beginning beginning, const Placement &placement, const PlacedBackends *shared)
-    : scene(std::move(beginning.scene)), settings(std::move(beginning.settings)), special(std::move(beginning.special)),
+    : scene(std::move(beginning.scene)), settings(std::move(beginning.settings)),
+      chooses(settings.broadphase == Broadphase::automatic), special(std::move(beginning.special)),
       hulls(hull_sizes(scene, cube_map_cells(settings))), trees(tree_tables(scene)), scene_features(special.features),
       backends(shared ? PlacedBackends(*shared, features_run()) : PlacedBackends(placement, features_run())),
       buffers(memory, backends), slots(std::move(beginning.slots)),
@@ -77,6 +64,7 @@ World::Implementation::Implementation(Beginning beginning, const Placement &plac
   counted_bodies = special.awake;
   plan.capacity_cells = cells_for(plan.bodies);
   plan.capacity_pairs = beginning.pairs;
+  choose_broadphase_after(std::nullopt);
   record_kernels();
   place(backends.wanted());
   buffers.allocate(sizes());
@@ -211,7 +199,7 @@ bool World::Implementation::module_applies_forces() const
  * find sleeping bodies too, so kernels see all bodies until the next step begins. */
 QueryTarget World::Implementation::query_target()
 {
-  const uint32_t structure = row_of(settings.broadphase).queries;
+  const uint32_t structure = query_structure();
   plan.hits = 0; /* the queries that follow write over those of a cast on the device */
   settle();
   if (counted_bodies != bodies()) count_bodies(bodies());

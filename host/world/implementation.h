@@ -17,6 +17,7 @@
 
 #include <tandem/world.h>
 
+#include "host/pipeline/broadphases/choice.h"
 #include "host/pipeline/sleeping.h"
 #include "host/pipeline/step.h"
 #include "host/runtime/launcher.h"
@@ -60,7 +61,7 @@ struct World::Implementation {
     uint32_t pairs; /* the first capacity */
     bool forces;
   };
-  static Beginning beginning_of(const Scene &given, const Settings &chosen, const Placement &placement);
+  static Beginning beginning_of(const Scene &given, const Settings &chosen);
 
   Implementation(const Scene &given, const Settings &chosen, const Placement &placement);
   /* shared: those of the world that this one is to replace, with their placement; null: none. */
@@ -81,6 +82,12 @@ struct World::Implementation {
   void guess_counts() noexcept;
   QueryTarget query_target();
   QueryTarget target_for_kernels();
+
+  /* --- the broadphase `auto`: broadphase_choice.cpp --------------------------------------------------------------- */
+  void choose_broadphase_after(std::optional<Broadphase> before);
+  void choose_again();
+  bool is_still_right() const;
+  uint32_t query_structure() const;
 
   /* --- a step happens whole or not at all (host/world/carried.h): step_attempts.cpp ---------------------------- */
   struct Attempt {
@@ -233,6 +240,11 @@ struct World::Implementation {
   std::mutex reading; /* calls that read may be made beside each other */
   Scene scene;
   Settings settings;
+  const bool chooses; /* the settings asked for `auto`; settings.broadphase is what was chosen */
+  TreesTrial trees_trial;
+  bool chosen_moving = false;              /* whether it paused then */
+  std::string chosen_for;                  /* the backend for which it was */
+  std::string broadphase_why = "as asked"; /* what decided it */
   Specialisation special;
   HullSizes hulls;
   TreeTables trees;

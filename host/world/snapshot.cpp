@@ -413,7 +413,10 @@ std::vector<std::byte> World::Implementation::save(std::vector<std::byte> memory
   std::vector<std::string> modules;
   for (const Extension &extension : settings.extensions) modules.emplace_back(extension.module->name());
   writer.put(modules);
-  writer.put(settings);
+  Settings asked = settings;
+  if (chooses)
+    asked.broadphase = Broadphase::automatic; /* another backend, or another number of bodies, chooses anew */
+  writer.put(asked);
   put_scene(writer, scene);
   put_special(writer, special, scene_features);
   writer.put(slots.slots());

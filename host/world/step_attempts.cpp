@@ -39,6 +39,7 @@ void World::Implementation::step(const StepLimits &limits)
   try {
     if (backends.is_waiting()) place_again();
     settle();
+    if (!is_still_right()) choose_again();
     buffers.make_ready(sizes());
     count_awake_bodies();
     run_until_whole(limits);
@@ -223,6 +224,7 @@ void World::Implementation::accept()
   if (plan.known[COUNT_COLORS] > COLOR_LIMIT) plan.colors = COLOR_LIMIT + 1;
   if (plan.drowsy) plan.island_rounds = std::max<uint32_t>(plan.known[COUNT_ISLAND_ROUNDS] + 2, 4);
   plan.drowsy = plan.known[COUNT_DROWSY] > 0;
+  trees_trial.note_step(settings.broadphase == Broadphase::trees, plan.known[COUNT_INSERTED] > 0);
   note_sorted();
 }
 
@@ -240,7 +242,8 @@ void World::Implementation::prepare_repetition(uint32_t status, bool &may_forget
   plan.known[COUNT_COMMIT_BODIES_PLUS_ONE] = special.awake + 1;
   plan.known[COUNT_COMMIT_PAIRS] = plan.known[COUNT_PAIRS];
   plan.known[COUNT_COMMIT_CONSTRAINTS] = plan.known[COUNT_CONSTRAINTS];
-  if (status & STATUS_PAIRS) grow_pairs(needed, may_forget); /* last, because it forgets the counts */
+  if (status & STATUS_PAIRS) grow_pairs(needed, may_forget); /* late, because it forgets the counts */
+  if (!is_still_right()) choose_again();                     /* the same, where many woke */
 }
 
 /* If candidates did not fit, the number of pairs among them is unknown. */

@@ -9,8 +9,8 @@
 #include "host/base/hash.h"
 #include "host/base/out_of_memory.h"
 #include "host/runtime/interface/floating_point.h"
-#include "host/world/contact_events.h"
 #include "host/world/closest_points.h"
+#include "host/world/contact_events.h"
 #include "host/world/implementation.h"
 
 namespace tandem {
@@ -100,6 +100,7 @@ void World::place(const Placement &placement)
 }
 const Scene &World::scene() const { return implementation_->scene; }
 const Settings &World::settings() const { return implementation_->settings; }
+const std::string &World::broadphase_why() const { return implementation_->broadphase_why; }
 const std::vector<Quarantine> &World::quarantined() const { return implementation_->quarantined; }
 const std::optional<BatchFault> &World::batch_fault() const { return implementation_->fault; }
 Features World::features() const { return implementation_->special.features; }
@@ -521,8 +522,8 @@ void World::cast_rays_on_device(std::span<const Ray> rays)
   });
 }
 
-void World::cast_shapes_on_device(const Shape &shape, std::span<const Pose> poses,
-                                  std::span<const Vec3> displacements, const QueryFilter &filter)
+void World::cast_shapes_on_device(const Shape &shape, std::span<const Pose> poses, std::span<const Vec3> displacements,
+                                  const QueryFilter &filter)
 {
   check_shape_casts(shape, poses, displacements);
   const minicl::ExactFloatingPoint environment;

@@ -171,7 +171,7 @@ TEST_CASE("auto chooses by the sizes and the number of bodies, says why, and cha
   };
   CHECK(choice("scattered", "serial").broadphase == Broadphase::brute_force);
   CHECK(choice("box-grid:nx=6,ny=6,nz=6", "tbb").broadphase == Broadphase::trees);
-  CHECK(choice("box-grid:nx=6,ny=6,nz=6", "cl").broadphase == Broadphase::brute_force);
+  CHECK(choice("box-grid:nx=5,ny=5,nz=5", "cl").broadphase == Broadphase::brute_force);
   CHECK(choice("box-grid:nx=12,ny=12,nz=12", "cl:nvidia").broadphase == Broadphase::grid);
   CHECK(choice("box-grid:nx=12,ny=12,nz=12", "cl:nvidia").why.find("1729 bodies, of which 1 are") != std::string::npos);
   Scene sizes = empty_scene();

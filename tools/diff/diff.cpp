@@ -107,8 +107,7 @@ std::string name_in(const Scene &scene, uint32_t body)
 Json bodies_json(const Difference &difference, const Scene &scene)
 {
   Json bodies = Json::array();
-  for (const uint32_t body : difference.bodies)
-    bodies.push_back({{"index", body}, {"name", name_in(scene, body)}});
+  for (const uint32_t body : difference.bodies) bodies.push_back({{"index", body}, {"name", name_in(scene, body)}});
   return bodies;
 }
 
@@ -242,13 +241,12 @@ int execute(const DiffOptions &options)
     throw InputError(
         fmt::format("--plant {}: nothing was planted in {} steps: {}", options.plant, comparison.steps, not_planted));
   if (!options.json.takes_standard_output()) {
-    if (request.settings.broadphase == Broadphase::automatic)
-      fmt::print("Broadphase on all of them: {} ({})\n", name_of(comparison.broadphase), comparison.broadphase_why);
     if (comparison.equal) fmt::print("EQUAL");
     else print_difference(*comparison.first_difference, scene, options.scene, name_of(comparison.broadphase));
     fmt::print("{}{}: {} steps, {} kernels and {} compared bit for bit\n", comparison.equal ? ": " : "\n",
                fmt::join(request.backends, ", "), comparison.steps, comparison.kernels_compared,
                bytes_text(comparison.bytes_compared));
+    fmt::print("Broadphase on all of them: {} ({})\n", name_of(comparison.broadphase), comparison.broadphase_why);
   }
   options.json.write(comparison_json(comparison, request, scene, options.scene));
   if (!comparison.quarantined.empty())

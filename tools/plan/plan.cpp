@@ -7,7 +7,6 @@
 #include <tandem/world.h>
 
 #include "host/pipeline/broadphases/broadphase.h"
-#include "host/pipeline/broadphases/choice.h"
 #include "tools/command/command.h"
 #include "tools/command/output.h"
 #include "tools/command/scene_options.h"
@@ -45,11 +44,10 @@ struct Plan {
   bool has(int feature) const { return (chosen.features() & feature_of_index(feature)) != 0; }
   std::string flags() const { return fmt::format("-D FEATURES={:#x}ul", chosen.features()); }
   /* The broadphase, and the reason for it if it was chosen automatically. */
-  std::string broadphase_text(Broadphase wanted, const std::string &on) const
+  std::string broadphase_text(Broadphase wanted) const
   {
-    const std::string why = wanted == Broadphase::automatic
-                                ? fmt::format(", chosen for {}", choose_broadphase(chosen.scene(), on).why)
-                                : "";
+    const std::string why =
+        wanted == Broadphase::automatic ? fmt::format(", chosen for {}", chosen.broadphase_why()) : "";
     const BroadphaseRow &row = row_of(chosen.settings().broadphase);
     return fmt::format("{} ({}){}", row.name, row.what, why);
   }
@@ -93,15 +91,14 @@ Json buffers_json(const Plan &plan)
   return list;
 }
 
-Json plan_json(const Plan &plan, const std::string &scene, Broadphase broadphase, const Placement &placement)
+Json plan_json(const Plan &plan, const std::string &scene, const Placement &placement)
 {
   return {{"scene", scene},
           {"backend", placement.on},
           {"features", features_json(plan)},
           {"flags", plan.flags()},
           {"broadphase", name_of(plan.chosen.settings().broadphase)},
-          {"broadphase_why",
-           broadphase == Broadphase::automatic ? choose_broadphase(plan.chosen.scene(), placement.on).why : "as asked"},
+          {"broadphase_why", plan.chosen.broadphase_why()},
           {"kernels", kernels_json(plan)},
           {"kernels_built", plan.chosen.kernels().size()},
           {"buffers", buffers_json(plan)},
@@ -157,11 +154,11 @@ void print_buffers(const Plan &plan)
   fmt::print("\n{}\n{}\n", kept.text("  "), out.text("  "));
 }
 
-void print_plan(const Plan &plan, const std::string &scene, Broadphase broadphase, const std::string &on)
+void print_plan(const Plan &plan, const std::string &scene, Broadphase broadphase)
 {
   fmt::print("{}: {} bodies\n\n", scene, plan.chosen.scene().bodies.size());
   print_features(plan);
-  fmt::print("broadphase: {}\n\n", plan.broadphase_text(broadphase, on));
+  fmt::print("broadphase: {}\n\n", plan.broadphase_text(broadphase));
   fmt::print("kernels: {} of {} built in {:.0f} ms\n", plan.chosen.kernels().size(), kernel_count,
              plan.chosen.build_milliseconds());
   print_kernels(plan);
@@ -182,8 +179,8 @@ int execute(const PlanOptions &options)
   settings.broadphase = chosen.settings().broadphase;
   World everything(scene, settings, Placement{"serial", {}, false});
   const Plan plan(chosen, everything);
-  if (!options.json.takes_standard_output()) print_plan(plan, options.scene.scene_text(), broadphase, placement.on);
-  options.json.write(plan_json(plan, options.scene.scene_text(), broadphase, placement));
+  if (!options.json.takes_standard_output()) print_plan(plan, options.scene.scene_text(), broadphase);
+  options.json.write(plan_json(plan, options.scene.scene_text(), placement));
   return 0;
 }
 

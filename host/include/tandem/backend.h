@@ -25,6 +25,9 @@ struct Placement {
   /* If calls bring new features into a world, its kernels for OpenCL devices are built on a thread of their own, and
    * `tbb`, which has all of them, runs them until then, with the same bits. Else the call waits for the compiler. */
   bool build_in_background = true;
+  /* The broadphase `auto` is chosen as if this backend ran it; empty: for the one that does. Worlds whose kernels are
+   * compared one by one must run the same ones. */
+  std::string broadphase_for = {};
 };
 
 /* Throws InputError if an exception names no stage and no kernel. */

@@ -88,8 +88,8 @@ struct Difference {
 
 struct Comparison {
   bool equal = true;
-  Broadphase broadphase{};    /* on every backend; `automatic` is decided once, for the first */
-  std::string broadphase_why; /* the statistics of the scene that decided it, in one line */
+  Broadphase broadphase{};    /* of the last step, on every backend; `automatic` is decided as for the first */
+  std::string broadphase_why; /* what decided it, in one line */
   uint64_t steps = 0;         /* run on every backend; the last may have differed */
   uint64_t kernels_compared = 0;
   uint64_t bytes_compared = 0;

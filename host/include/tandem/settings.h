@@ -15,7 +15,8 @@ namespace tandem {
 /* Kernels index pairs with 32 bits, in up to 16 planes. */
 constexpr uint32_t most_pairs = 1u << 28;
 
-/* The choices of a setting, the default first. The name of each is that of the command, with - for _. */
+/* The choices of a setting, the default first, but that of Broadphase last. The name of each is that of the command,
+ * with - for _. */
 enum class TANDEM_API Solver : uint8_t { soft_step, pgs, nncg, xpbd, avbd, jacobi, direct };
 enum class TANDEM_API Broadphase : uint8_t {
   grid,
@@ -31,7 +32,7 @@ enum class TANDEM_API Broadphase : uint8_t {
   bvh_stack,
   bvh_history,
   trees,
-  automatic /* "auto": chosen from the statistics of the scene */
+  automatic /* "auto", the default: chosen from the statistics of the scene, and anew as bodies come and go */
 };
 enum class TANDEM_API Bounds : uint8_t { affine, tight };
 enum class TANDEM_API Midphase : uint8_t { walk, subtrees };
@@ -47,7 +48,7 @@ concept Choice = std::same_as<T, Solver> || std::same_as<T, Broadphase> || std::
 template <Choice T> TANDEM_API const char *name_of(T choice);
 /* The choice of this name. Throws InputError with a list of all names if there is none. */
 template <Choice T> TANDEM_API T parse_setting(const std::string &name);
-/* All choices, the default first; those of Broadphase without `automatic`. */
+/* All choices, the default first; those of Broadphase without its default `automatic`. */
 template <Choice T> TANDEM_API std::vector<T> choices();
 template <Choice T> TANDEM_API std::vector<std::string> choice_names();
 
@@ -57,8 +58,8 @@ struct Settings {
   uint32_t substeps = 4;     /* 1 .. 1000 */
   uint32_t iterations = 1;   /* solver passes a substep, 1 .. 1000 */
   Solver solver = Solver::soft_step;
-  Broadphase broadphase = Broadphase::grid; /* one of host/pipeline/broadphases/; changes no bit */
-  Bounds bounds = Bounds::affine;           /* tight: from the support map; finds other pairs, so the bits differ */
+  Broadphase broadphase = Broadphase::automatic; /* one of host/pipeline/broadphases/; changes no bit */
+  Bounds bounds = Bounds::affine;     /* tight: from the support map; finds other pairs, so the bits differ */
   Midphase midphase = Midphase::walk; /* traversal of the trees of meshes and compounds; both give the same list */
   Narrowphase narrowphase = Narrowphase::sat; /* for pairs of shapes without a test of their own */
   Support support = Support::brute_force;     /* how the farthest vertex of a hull is found; only cube_map is

@@ -166,7 +166,8 @@ public:
   void place(const Placement &placement);
 
   const Scene &scene() const;
-  const Settings &settings() const; /* with the broadphase that `auto` chose */
+  const Settings &settings() const;          /* with the broadphase that `auto` has chosen for the next step */
+  const std::string &broadphase_why() const; /* what decided it, in one line; "as asked" without `auto` */
 
   /* In the order of Scene::bodies; for a body that was destroyed, where it was last, at rest. */
   std::vector<BodyState> bodies();

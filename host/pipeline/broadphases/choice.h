@@ -2,8 +2,12 @@
  * Broadphase::automatic. The choice changes no bit of a result. */
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <string>
 
+#include <tandem/backend.h>
 #include <tandem/export.h>
 #include <tandem/scene.h>
 #include <tandem/settings.h>
@@ -17,5 +21,43 @@ struct BroadphaseChoice {
 
 /* backend: as in --on. */
 TANDEM_API BroadphaseChoice choose_broadphase(const Scene &scene, const std::string &backend);
+
+/* What a world knows of its steps. */
+struct BroadphaseHistory {
+  std::optional<Broadphase> before; /* what ran so far; brute force comes back only when half as many bodies are left as
+                                       made it go, so that a number that varies a little changes nothing */
+  bool moving = false;              /* TreesTrial: most bodies keep leaving their boxes */
+};
+
+/* bodies: how many the broadphase looks at, which are fewer than the scene has where some sleep. */
+TANDEM_API BroadphaseChoice choose_broadphase(const Scene &scene, size_t bodies, const std::string &backend,
+                                              const BroadphaseHistory &history);
+
+/* Whether brute force is still right, or still wrong, for so many bodies. It takes no look at the scene, and may be
+ * asked in each step. */
+TANDEM_API bool is_still_right(Broadphase broadphase, size_t bodies, const std::string &backend);
+
+/* Whether trees pay on a CPU shows while they run: they save the search for bodies that stay in their boxes, and cost
+ * twice a grid where all leave them. They are built anew when one body in sixteen has moved by its own size, and when
+ * what they kept was dropped. Where that happens twice within `quiet` steps the grid takes over; trees are tried again
+ * later, each time after twice as many steps. All follows from counts, which are the same on every backend. */
+class TANDEM_API TreesTrial {
+public:
+  static constexpr uint32_t quiet = 60, first_pause = 60, longest_pause = 3840; /* steps */
+
+  bool pauses() const { return pause_ > 0; }
+  void note_step(bool with_trees, bool rebuilt);
+
+private:
+  uint32_t pause_ = 0, next_pause_ = first_pause;
+  uint32_t since_rebuilt_ = quiet; /* so that the first building is none of two */
+};
+
+/* The structure that queries over so many bodies traverse, QUERY_ of body_codes.h: where brute force was chosen for the
+ * few that are awake, queries find those asleep too. */
+uint32_t query_structure_for(Broadphase chosen, size_t bodies, const std::string &backend);
+
+/* The backend to choose for: the one that runs the stage. */
+TANDEM_API const std::string &broadphase_backend(const Placement &placement);
 
 } // namespace tandem

@@ -57,6 +57,7 @@ TEST_CASE("settings: every choice has a name that leads back to it, the default 
   check_names<Batching>(5, "coloring");
   CHECK(parse_setting<Broadphase>("auto") == Broadphase::automatic);
   CHECK(name_of(Broadphase::automatic) == std::string("auto"));
+  CHECK(Settings{}.broadphase == Broadphase::automatic);
 }
 
 TEST_CASE("settings: a name that is unknown is refused in one line that lists those that there are")

@@ -37,6 +37,7 @@ Difference find_injected(Kernel kernel, Buffer buffer, size_t scalar, uint64_t s
                          const Scene &scene = small_scene())
 {
   ComparisonRequest request = request_of({"serial", "tbb:threads=1,lanes=4"}, step + 3);
+  request.settings.broadphase = Broadphase::grid; /* which has sort keys */
   request.inject_fault = inject_fault({world, kernel, step, buffer, scalar});
   const Comparison comparison = compare_backends(scene, request);
   REQUIRE_FALSE(comparison.equal);
