@@ -281,6 +281,20 @@ TEST_CASE("heap: saving, restoring and going back change nothing where they fail
   }
 }
 
+TEST_CASE("heap: a step that changes the broadphase is made whole once there is memory")
+{
+  const auto choose_as_for_a_device = [](World &world) {
+    Placement placement = serial;
+    placement.broadphase_for = "cl";
+    world.place(placement);
+    CHECK(world.settings().broadphase == Broadphase::trees); /* until the step */
+  };
+  check_fails_everywhere_in_step({load_scene("box-grid:nx=5,ny=4,nz=5"),
+                                  short_step(with(Solver::soft_step, Broadphase::automatic, true)), serial, 2,
+                                  choose_as_for_a_device},
+                                 3);
+}
+
 /* What a broadphase keeps is in buffers that a new layout sizes anew. */
 TEST_CASE("heap: bodies that cannot be created for want of memory leave the next steps their bits")
 {
