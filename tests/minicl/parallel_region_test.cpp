@@ -15,7 +15,7 @@ namespace {
 /* Each launch computes its items from all that the one before wrote, which also says how many items it has. */
 class Chain : public LaunchesOfRegion {
 public:
-  Chain(size_t launches, uint64_t seed) : written_(launches), runs_(launches)
+  Chain(size_t launches, uint64_t seed) : items_(launches), written_(launches), runs_(launches)
   {
     Random random(seed);
     for (size_t launch = 0; launch < launches; ++launch) {
@@ -27,7 +27,8 @@ public:
   size_t count() const override { return most_.size(); }
   Range range_of(size_t launch) const override
   {
-    return {offset, offset + items(launch), items_of_part_[launch], stays_[launch]};
+    items_[launch] = items_after_last(launch);
+    return {offset, offset + items_[launch], items_of_part_[launch], stays_[launch]};
   }
   void run(size_t launch, uint32_t first, uint32_t last) override
   {
@@ -43,8 +44,8 @@ public:
   {
     uint64_t sum = 0;
     for (size_t launch = 0; launch < count(); ++launch) {
-      REQUIRE(written_[launch] == items(launch));
-      sum = 31 * sum + items(launch);
+      REQUIRE(written_[launch] == items_[launch]);
+      sum = 31 * sum + items_[launch];
     }
     for (const auto &numbers : numbers_) sum = std::accumulate(numbers.begin(), numbers.end(), sum);
     return sum;
@@ -60,7 +61,7 @@ private:
   static constexpr uint32_t offset = 5;
   static constexpr size_t slow_launch = 40;
 
-  uint32_t items(size_t launch) const
+  uint32_t items_after_last(size_t launch) const
   {
     if (launch == 0) return most_[0];
     return most_[launch] == 0
@@ -74,6 +75,7 @@ private:
   }
 
   std::vector<uint32_t> most_, items_of_part_;
+  mutable std::vector<uint32_t> items_; /* of each launch, as they were when it began */
   std::vector<bool> stays_;
   std::vector<std::atomic<uint32_t>> written_, runs_;
   std::vector<uint64_t> numbers_[2] = {std::vector<uint64_t>(1000, 1), std::vector<uint64_t>(1000, 2)};

@@ -66,12 +66,12 @@ TEST_CASE("a program of phases has a case for each kind, with the buffers of its
     INFO(text);
     REQUIRE(text.find(part) != text.npos);
   };
-  has("case 0: FOR_EACH_IN_PHASE(i) fill_item((__global uint *)buffer_primitive_a, row[3], i); break;");
+  has("case 0: FOR_EACH_IN_PHASE(i) fill_item((__global uint *)buffer_primitive_a, row[5], i); break;");
   has("case 1: FOR_EACH_IN_PHASE(i) copy_item((__global const uint *)buffer_primitive_a, (__global uint "
       "*)buffer_primitive_b, i);");
   has("case 2: FOR_EACH_GROUP(group) scan_in_order_group((__global const uint *)buffer_counts, (__global const uint "
-      "*)buffer_primitive_b, (__global uint *)buffer_primitive_a, (__global uint *)buffer_scan_sums, row[3], row[4], "
-      "row[5], row[6], local_memory, group);");
+      "*)buffer_primitive_b, (__global uint *)buffer_primitive_a, (__global uint *)buffer_scan_sums, row[5], row[6], "
+      "row[7], row[8], local_memory, group);");
   has("__local uint local_memory[LARGER(SCAN_LOCAL_WORDS, 1)]");
 }
 
