@@ -103,10 +103,11 @@ enum {
   COUNT_ISLAND_ROUNDS,        /* rounds that changed a label of an island */
   COUNT_ISLANDS_OPEN,         /* 1 if more rounds might change one */
   COUNT_FALLING_ASLEEP,       /* bodies that fall asleep at the end of the step */
-  COUNT_EVENTS,               /* of the step; 0 unless it was committed */
-  COUNT_PAIR_EVENTS,          /* the same of pairs that come near, stay or leave */
-  COUNT_MOVED,                /* bodies that the step has moved, with Settings::moved_bodies */
-  KIND_START,                 /* the start of each kind in pair_of_kind, and the end of the last one */
+  COUNT_LOAD_RATE,   /* bits of a float, 1/s^2: square of the rate of substeps that loads need (setup/standing.h) */
+  COUNT_EVENTS,      /* of the step; 0 unless it was committed */
+  COUNT_PAIR_EVENTS, /* the same of pairs that come near, stay or leave */
+  COUNT_MOVED,       /* bodies that the step has moved, with Settings::moved_bodies */
+  KIND_START,        /* the start of each kind in pair_of_kind, and the end of the last one */
   /* The ranges of the bodies sorted by colour, stored as those of COLOR_START. */
   BODY_COLOR_START = KIND_START + PAIR_KIND_NONE + 1,
   COLOR_START = BODY_COLOR_START + COLOR_ENTRIES,
@@ -120,8 +121,9 @@ enum {
   STATUS_NONFINITE = 8, /* a body is not finite: quarantine it and run the step again */
   STATUS_ISLANDS = 16,  /* islands need more rounds */
   STATUS_WAKE = 32,     /* sleeping bodies were touched: wake their islands and run the step again */
+  STATUS_SUBSTEPS = 64, /* loads and stacks need more substeps */
   STATUS_DEADLOCK =
-      64 /* the work-groups of a launch did not run together (cl/phases.cl): the device is of no more use */
+      128 /* the work-groups of a launch did not run together (cl/phases.cl): the device is of no more use */
 };
 
 /* The stage that first saw a body non-finite, in pipeline order. */

@@ -34,6 +34,8 @@ typedef struct {
   PARAMETER_REAL restitution_speed;    /* m/s, slower impacts do not bounce */
   PARAMETER_REAL hybrid_cell;          /* m, cell of the hybrid broadphase: what is larger is not in its grid */
   PARAMETER_REAL inverse_batch_cell;   /* 1/m, cells of two-stage batching */
+  PARAMETER_REAL warm_start_scale;     /* of the impulses of the last step, if its substeps were longer or shorter */
+  PARAMETER_REAL gravity_length;       /* m/s^2 */
   PARAMETER_REAL sleep_speed;          /* m/s, bodies of a metre and more rest below it */
   uint sleep_steps;                    /* of rest, before a body may fall asleep */
   ulong features;                      /* a bit for each row of features.def; an even number of reals stands before */

@@ -14,6 +14,7 @@
 #include "host/pipeline/broadphases/broadphase.h"
 #include "host/pipeline/setting_rows.h"
 #include "host/pipeline/solvers/solvers.h"
+#include "host/pipeline/substep_choice.h"
 #include "host/runtime/interface/module.h"
 #include "shared/body_codes.h"
 
@@ -173,12 +174,15 @@ void validate(const Settings &settings)
   if (!std::isfinite(settings.step) || settings.step <= 0 || settings.step > longest_step)
     throw InputError(
         fmt::format("time step {} s: use a number of seconds above 0, at most {}", settings.step, longest_step));
-  check_count("substeps", settings.substeps);
+  if (settings.substeps == automatic_substeps && settings.solver != Solver::soft_step)
+    throw InputError(fmt::format("substeps auto with the solver {}: only soft-step chooses its substeps; use 1 to 1000",
+                                 name_of(settings.solver)));
+  if (settings.substeps != automatic_substeps) check_count("substeps", settings.substeps);
   check_count("iterations", settings.iterations);
-  const float substeps = settings.substeps;
-  if (settings.step / substeps < 1e-9f)
-    throw InputError(fmt::format("time step {} s in {} substeps: a substep must be at least 1e-9 s", settings.step,
-                                 settings.substeps));
+  const uint32_t substeps = settings.substeps == automatic_substeps ? most_automatic_substeps : settings.substeps;
+  if (settings.step / static_cast<float>(substeps) < 1e-9f)
+    throw InputError(
+        fmt::format("time step {} s in {} substeps: a substep must be at least 1e-9 s", settings.step, substeps));
   check_choice(settings.solver);
   check_choice(settings.broadphase);
   check_choice(settings.bounds);

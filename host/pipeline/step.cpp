@@ -7,6 +7,8 @@
  */
 #include "host/pipeline/step.h"
 
+#include <utility>
+
 #include "host/pipeline/batching/batcher.h"
 #include "host/pipeline/broadphases/broadphase.h"
 #include "host/pipeline/pair_lists.h"
@@ -41,6 +43,7 @@ public:
     run_extensions(StepPoint::contacts);
     color_contacts();
     run(Kernel::prepare_contacts);
+    if (plan().substeps.automatic) weigh_standing();
     if (plan().colors > COLOR_LIMIT) run_range(Kernel::mark_overflow, COLOR_START + COLOR_OVERFLOW, COUNT_CONSTRAINTS);
     if (has(FEATURE_ROLLING)) run(Kernel::prepare_rolling);
     run_extensions(StepPoint::constraints);
@@ -139,6 +142,21 @@ private:
     if (settings().check) launch_check(*this);
   }
 
+  /* A step carries what stands on a body down by one layer. The first step of a world carries it down through stacks,
+   * because those that are too tall would have begun to fall by the time that all is known. The last pass writes
+   * body_standing, so there is an odd number of them. */
+  void weigh_standing()
+  {
+    const uint32_t passes = plan().substeps.starts ? 129 : 1;
+    Buffer from = Buffer::cached_standing, to = Buffer::body_standing, other = Buffer::body_standing_other;
+    for (uint32_t pass = 0; pass < passes; ++pass) {
+      run_range(Kernel::fill, COUNT_ZERO, COUNT_HALVES, {0}, {to});
+      run(Kernel::weigh_standing, {}, {from, to});
+      from = std::exchange(to, other);
+      other = from;
+    }
+  }
+
   void keep_out_of_walls()
   {
     run_range(Kernel::fill, COUNT_ZERO, COUNT_BODIES, {WHOLE_TOI_FRACTION}, {Buffer::body_toi_fraction});
@@ -149,7 +167,7 @@ private:
   void commit()
   {
     run(Kernel::check_bodies);
-    run(Kernel::finish_step, {plan().colors});
+    run(Kernel::finish_step, {plan().colors, highest_load_rate(plan().substeps, settings().step)});
     if (has(FEATURE_EVENTS)) list_events();
     if (settings().pair_events) list_pair_events();
     launcher().begin_commit();
@@ -158,6 +176,7 @@ private:
     if (plan().forces) run(Kernel::clear_forces);
     if (plan().sleeping)
       run_range(Kernel::copy, COUNT_ZERO, COUNT_COMMIT_BODIES, {}, {Buffer::rest_count, Buffer::resting_steps});
+    if (plan().substeps.automatic) run(Kernel::cache_standing);
     run(Kernel::cache_starts);
     run(Kernel::cache_pairs);
     run(Kernel::cache_impulses);

@@ -6,6 +6,7 @@
 
 #include <tandem/settings.h>
 
+#include "host/pipeline/substep_choice.h"
 #include "host/runtime/launcher.h"
 
 namespace tandem {
@@ -25,7 +26,8 @@ struct StepPlan {
   uint32_t island_rounds = 4;
   uint32_t colors = 16; /* up to COLOR_LIMIT + 1: the overflow constraints */
   uint32_t rounds = 16;
-  uint32_t hits = 0; /* that a cast has left on the device for kernels of modules */
+  SubstepChoice substeps;                    /* if the world chooses them itself */
+  uint32_t hits = 0;                         /* that a cast has left on the device for kernels of modules */
   std::array<uint32_t, COUNT_TOTAL> known{}; /* counts after the last step */
 };
 

@@ -6,7 +6,6 @@
 
 #include <tandem/round_to_float.h>
 
-
 namespace tandem {
 namespace {
 
@@ -38,6 +37,14 @@ uint32_t sleep_steps(const Settings &settings)
   return static_cast<uint32_t>(std::clamp(std::ceil(settings.sleep_time / settings.step), 1.0f, 1e9f));
 }
 
+/* By a square root, which every library rounds alike. */
+float length_of(const Vec3 &v)
+{
+  double squared = 0;
+  for (const float x : v) squared += static_cast<double>(x) * static_cast<double>(x);
+  return round_to_float(std::sqrt(squared));
+}
+
 } // namespace
 
 Parameters parameters_of(const Scene &scene, const Settings &settings, Features features, float median)
@@ -55,6 +62,8 @@ Parameters parameters_of(const Scene &scene, const Settings &settings, Features 
   p.gravity_x = scene.gravity[0];
   p.gravity_y = scene.gravity[1];
   p.gravity_z = scene.gravity[2];
+  p.gravity_length = length_of(scene.gravity);
+  p.warm_start_scale = 1;
   p.bias_rate = soft.rate;
   p.mass_scale = soft.mass_scale;
   p.impulse_scale = soft.impulse_scale;

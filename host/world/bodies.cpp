@@ -128,7 +128,7 @@ public:
     world_->hulls = hulls_;
     world_->trees = std::move(trees_);
     world_->plan = plan_;
-    world_->settings.broadphase = broadphase_;
+    world_->take_broadphase(broadphase_);
     world_->chosen_for = std::move(chosen_for_);
     world_->broadphase_why = std::move(broadphase_why_);
     world_->scene_entries = std::move(entries_);

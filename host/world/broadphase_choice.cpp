@@ -16,10 +16,15 @@ void World::Implementation::choose_broadphase_after(std::optional<Broadphase> be
   if (!chooses) return;
   std::string backend = broadphase_backend(backends.wanted());
   BroadphaseChoice choice = choose_broadphase(scene, special.awake, backend, {before, trees_trial.pauses()});
-  settings.broadphase = choice.broadphase;
+  take_broadphase(choice.broadphase);
   broadphase_why = std::move(choice.why);
   chosen_for = std::move(backend);
   chosen_moving = trees_trial.pauses();
+}
+
+void World::Implementation::take_broadphase(Broadphase broadphase)
+{
+  settings.broadphase = settings_in_use.broadphase = broadphase;
 }
 
 bool World::Implementation::is_still_right() const
@@ -41,7 +46,7 @@ void World::Implementation::choose_again()
     forget_kept(memory);
     buffers.make_ready(sizes());
   } catch (...) {
-    settings.broadphase = before;
+    take_broadphase(before);
     buffers.give_back_needs(std::move(needs_before));
     throw;
   }

@@ -4,6 +4,7 @@
  * A call is taken whole or not at all: every handle and every number is checked before the first command is added. */
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -242,9 +243,9 @@ void World::Implementation::set_gravity(const Vec3 &gravity)
     throw InputError(fmt::format("set_gravity: gravity is {}; three finite numbers are needed", vector_text(gravity)));
   settle();
   wake_all();
-  Scene changed;
-  changed.gravity = gravity;
-  const Parameters parameters = parameters_of(changed, settings, special.features, special.median);
+  const Vec3 before = std::exchange(scene.gravity, gravity);
+  const Parameters parameters = parameters_now();
+  scene.gravity = before;
   memory.upload(Buffer::parameters, &parameters, sizeof parameters);
   scene.gravity = gravity;
   if (settings.sleeping) { /* a slow start is no rest */

@@ -66,7 +66,7 @@ void World::Implementation::run(Kernel kernel, const Values &values, const Slots
   count_awake_bodies();
   ++state;
   begin_launches();
-  StepLaunches(launcher, plan, settings).run_of_module(kernel, values, slots, {});
+  StepLaunches(launcher, plan, settings_in_use).run_of_module(kernel, values, slots, {});
   forget_kept(memory);
   launches_ended = true;
 }

@@ -48,6 +48,7 @@ World::Implementation::Implementation(const Scene &given, const Settings &chosen
 
 World::Implementation::Implementation(Beginning beginning, const Placement &placement, const PlacedBackends *shared)
     : scene(std::move(beginning.scene)), settings(std::move(beginning.settings)),
+      settings_in_use(with_substeps(settings, first_choice(settings))),
       chooses(settings.broadphase == Broadphase::automatic), special(std::move(beginning.special)),
       hulls(hull_sizes(scene, cube_map_cells(settings))), trees(tree_tables(scene)), scene_features(special.features),
       backends(shared ? PlacedBackends(*shared, features_run()) : PlacedBackends(placement, features_run())),
@@ -57,6 +58,8 @@ World::Implementation::Implementation(Beginning beginning, const Placement &plac
   launcher.set_on_commit([this] { turn(); });
   plan.forces = beginning.forces || module_applies_forces();
   plan.sleeping = settings.sleeping;
+  plan.substeps = first_choice(settings);
+  told_substeps = {plan.substeps.now, plan.substeps.of_cache};
   special.features = features_run();
   plan.features = special.features;
   plan.bodies = beginning.room;
@@ -107,10 +110,11 @@ void World::Implementation::record_kernels()
 {
   StepPlan all = plan;
   all.colors = std::max(plan.colors, COLOR_LIMIT);
+  all.substeps.starts = all.substeps.automatic;
   all.rounds = BATCH_ROUNDS * COLOR_LIMIT; /* the most rounds after which a batcher launches another kernel */
   Recorder recorder;
   all.drowsy = all.sleepers = all.other_sleepers = settings.sleeping;
-  launch_step(recorder, all, settings);
+  launch_step(recorder, all, settings_in_use);
   note_shapes(recorder);
   if (settings.sleeping) note_sleep(recorder);
   for (const Extension &extension : settings.extensions) note_rows(recorder, *extension.module);
@@ -139,6 +143,14 @@ void World::Implementation::upload_scene()
   number_bodies();
 }
 
+Parameters World::Implementation::parameters_now() const
+{
+  Parameters parameters = parameters_of(scene, settings_in_use, special.features, special.median);
+  if (plan.substeps.automatic)
+    parameters.warm_start_scale = static_cast<float>(plan.substeps.of_cache) / static_cast<float>(plan.substeps.now);
+  return parameters;
+}
+
 /* The tables of shapes, materials and parameters, which only calls of the user change. */
 void World::Implementation::stage_tables(StagedUploads &uploads)
 {
@@ -147,8 +159,7 @@ void World::Implementation::stage_tables(StagedUploads &uploads)
   stage_trees(uploads, scene, trees, special.order, plan.bodies, slots.status());
   trees = {trees.sizes, {}, {}, {}, {}, {}, {}, {}, {}}; /* the buffers hold the rest */
   stage_materials(uploads, scene);
-  uploads.add(Buffer::parameters,
-              std::vector<Parameters>{parameters_of(scene, settings, special.features, special.median)});
+  uploads.add(Buffer::parameters, std::vector<Parameters>{parameters_now()});
   uploaded_shapes = scene.shapes.size();
   uploaded_materials = scene.materials.size();
 }
@@ -207,7 +218,7 @@ QueryTarget World::Implementation::query_target()
   if (structure_state != state || !may_be_told) tell_queried_bodies(memory, scene, special.order, queried_bodies);
   if (structure_state != state) {
     Recorder recorder;
-    StepLaunches recorded(recorder, plan, settings), launches(launcher, plan, settings);
+    StepLaunches recorded(recorder, plan, settings_in_use), launches(launcher, plan, settings_in_use);
     launch_query_structure(recorded, structure);
     for (size_t i = 0; i < buffers.needs().touched.size(); ++i)
       if (recorder.touched[i] && !buffers.is_queried(buffer_at(i))) buffers.ensure_capacity(buffer_at(i), sizes());

@@ -75,6 +75,7 @@ struct World::Implementation {
   void place(const Placement &placement);
   void place_again(); /* if other kernels are needed than before */
   void upload_scene();
+  Parameters parameters_now() const;
   void stage_tables(StagedUploads &uploads);
   void stage_counts(StagedUploads &uploads) const;
   void number_bodies();
@@ -86,6 +87,7 @@ struct World::Implementation {
   /* --- the broadphase `auto`: broadphase_choice.cpp --------------------------------------------------------------- */
   void choose_broadphase_after(std::optional<Broadphase> before);
   void choose_again();
+  void take_broadphase(Broadphase broadphase);
   bool is_still_right() const;
   uint32_t query_structure() const;
 
@@ -107,6 +109,7 @@ struct World::Implementation {
   void restore_bodies();
   [[noreturn]] void tell_why_step_failed() const;
   void begin_launches();
+  void tell_substeps();
   std::span<const uint32_t> counts_expected() const;
   void accept();
   void prepare_repetition(uint32_t status, bool &may_forget);
@@ -240,6 +243,7 @@ struct World::Implementation {
   std::mutex reading; /* calls that read may be made beside each other */
   Scene scene;
   Settings settings;
+  Settings settings_in_use; /* with the substeps of the present step */
   const bool chooses; /* the settings asked for `auto`; settings.broadphase is what was chosen */
   TreesTrial trees_trial;
   bool chosen_moving = false;              /* whether it paused then */
@@ -289,6 +293,8 @@ struct World::Implementation {
   std::vector<Quarantine> quarantined;
   std::optional<BatchFault> fault;
   Statistics statistics;
+  /* The substeps that the parameters on the device have, and those of the cache that they know. */
+  std::pair<uint32_t, uint32_t> told_substeps;
   uint32_t cached_pairs = 0;  /* in the contact cache, as cached_start says */
   uint32_t awake_at_last = 0; /* bodies, in the last step */
   StateRing ring;

@@ -80,7 +80,7 @@ std::vector<CarriedBuffer> World::Implementation::pair_rows(const std::vector<bo
 /* Records what falling asleep and waking launch. */
 void World::Implementation::note_sleep(Recorder &recorder) const
 {
-  StepLaunches step(recorder, plan, settings);
+  StepLaunches step(recorder, plan, settings_in_use);
   append_sleepers(step, plan.bodies);
   renumber_sleepers(recorder, plan.bodies, plan.bodies);
   place_awake_first(step, plan.capacity_pairs);
@@ -133,7 +133,7 @@ void World::Implementation::append_fallen(uint32_t before)
   const uint32_t fallen = before - special.awake;
   begin_launches();
   set_length(memory, before);
-  StepLaunches step(launcher, plan, settings);
+  StepLaunches step(launcher, plan, settings_in_use);
   append_sleepers(step, fallen);
   launches_ended = true;
   listed_sleepers += fallen;
@@ -221,7 +221,7 @@ void World::Implementation::put_to_sleep()
   keep_order_of_events();
   begin_launches();
   set_length(memory, pairs);
-  StepLaunches step(launcher, plan, settings);
+  StepLaunches step(launcher, plan, settings_in_use);
   place_awake_first(step, pairs);
   const std::vector<CarriedBuffer> of_pairs = pair_rows(buffers.needs().touched);
   for (const CarriedBuffer &rows : of_pairs) {

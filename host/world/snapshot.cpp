@@ -39,6 +39,12 @@ template <Is<SleepingIsland> T, class Visit> auto visit_fields(T &record, const 
   return visit(bodies, pairs);
 }
 
+template <Is<SubstepChoice> T, class Visit> auto visit_fields(T &record, const Visit &visit)
+{
+  auto &[automatic, starts, now, of_cache, calm_steps] = record;
+  return visit(automatic, starts, now, of_cache, calm_steps);
+}
+
 template <Is<SleepEvent> T, class Visit> auto visit_fields(T &record, const Visit &visit)
 {
   auto &[body, asleep] = record;
@@ -100,6 +106,18 @@ void check_order(const ByteReader &reader, const Scene &scene, const Specialisat
         (index < special.unbounded))
       reader.fail("half-spaces are not the first bodies in the buffers");
   if (!(special.median >= 0) || !std::isfinite(special.median)) reader.fail("the median size of the bodies is no size");
+}
+
+/* A damaged number must not become as many launches. */
+void check_substeps(const ByteReader &reader, const SnapshotContents &contents)
+{
+  const SubstepChoice &choice = contents.substeps;
+  const SubstepChoice first = first_choice(contents.settings);
+  const uint32_t most = choice.automatic ? most_automatic_substeps : first.now;
+  const auto is_allowed = [&](uint32_t substeps) { return substeps >= first.now && substeps <= most; };
+  if (choice.automatic != first.automatic || !is_allowed(choice.now) || !is_allowed(choice.of_cache))
+    reader.fail(fmt::format("{} substeps after {}, of a world that takes {} to {}", choice.now, choice.of_cache,
+                            first.now, most));
 }
 
 Specialisation get_special(ByteReader &reader, const Scene &scene)
@@ -350,6 +368,8 @@ SnapshotContents read_snapshot(std::span<const std::byte> bytes, const std::stri
   reader.get(contents.room);
   reader.get(contents.forces);
   reader.get(contents.drowsy);
+  reader.get(contents.substeps);
+  check_substeps(reader, contents);
   reader.get(contents.sleep_events);
   reader.get(contents.steps);
   reader.get(contents.overflow);
@@ -376,6 +396,7 @@ void World::Implementation::put_history(ByteWriter &writer) const
   writer.put(plan.bodies);
   writer.put(plan.forces);
   writer.put(plan.drowsy);
+  writer.put(plan.substeps);
   writer.put(sleep_events_to_come);
   writer.put(statistics.steps);
   writer.put(statistics.overflow);
@@ -497,6 +518,7 @@ void World::Implementation::take_islands(const SnapshotContents &contents)
   if (!sleepers.empty()) sleepers_changed();
   if (settings.sleeping) recount_motion();
   plan.drowsy = contents.drowsy;
+  plan.substeps = contents.substeps;
 }
 
 std::unique_ptr<World::Implementation> World::Implementation::restored(std::span<const std::byte> snapshot,

@@ -16,6 +16,7 @@
 #include <tandem/world.h>
 
 #include "host/base/sealed_bytes.h"
+#include "host/pipeline/substep_choice.h"
 #include "host/scene/specialise.h"
 #include "host/world/body_slots.h"
 #include "host/world/shape_slots.h"
@@ -23,7 +24,7 @@
 
 namespace tandem {
 
-constexpr SealedKind snapshot_kind{{'T', 'A', 'N', 'D', 'E', 'M', 'S', '\n'}, 2, "snapshot"};
+constexpr SealedKind snapshot_kind{{'T', 'A', 'N', 'D', 'E', 'M', 'S', '\n'}, 3, "snapshot"};
 
 /* A buffer's items in use. */
 struct SavedBuffer {
@@ -42,6 +43,7 @@ struct SnapshotContents {
   std::vector<uint32_t> made_shapes; /* of the scene, that belong to one body alone */
   uint32_t room = 0; /* bodies that the buffers hold; it decides when the median size is computed again */
   bool forces = false;
+  SubstepChoice substeps;               /* StepPlan::substeps */
   bool drowsy = false;                  /* StepPlan::drowsy, which decides in which step islands are looked for */
   std::vector<SleepEvent> sleep_events; /* those that the next step will report */
   uint64_t steps = 0;

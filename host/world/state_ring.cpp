@@ -159,6 +159,7 @@ void World::Implementation::keep_state()
   state.pairs = cached_pairs;
   state.forces = plan.forces;
   state.drowsy = plan.drowsy;
+  state.substeps = plan.substeps;
   state.sleep_events_to_come = sleep_events_to_come;
   state.changes = ring.changes();
   ring.commit();
@@ -342,6 +343,7 @@ void World::Implementation::go_back(uint32_t states)
   sleep_events.clear();
   sleep_events_to_come.swap(sleep_events_then);
   plan.drowsy = then.drowsy;
+  plan.substeps = then.substeps;
   if (settings.sleeping) recount_motion();
 }
 

@@ -19,6 +19,7 @@
 
 #include <tandem/world.h>
 
+#include "host/pipeline/substep_choice.h"
 #include "host/runtime/memory.h"
 #include "host/world/body_slots.h"
 #include "host/world/shape_slots.h"
@@ -48,6 +49,7 @@ struct KeptState {
   size_t quarantined = 0, shapes = 0, materials = 0;
   uint32_t bodies = 0, pairs = 0;
   bool forces = false, drowsy = false; /* of StepPlan */
+  SubstepChoice substeps;
   std::vector<SleepEvent> sleep_events_to_come;
   size_t changes = 0; /* of the roster, so far */
   std::shared_ptr<const BodySlots> slots;

@@ -106,8 +106,9 @@ void World::Implementation::run_until_whole(const StepLimits &limits)
 {
   bool may_forget = launches_ended && plan.known[COUNT_KEPT] != 0;
   for (size_t repetition = 0; repetition < most_repetitions + taken_one_by_one; ++repetition) {
+    tell_substeps();
     begin_launches();
-    launcher.launch_in_series(counts_expected(), [this] { launch_step(launcher, plan, settings); });
+    launcher.launch_in_series(counts_expected(), [this] { launch_step(launcher, plan, settings_in_use); });
     memory.download(Buffer::counts, plan.known.data(), sizeof plan.known);
     launches_ended = true;
     check_limits(limits);
@@ -123,6 +124,17 @@ void World::Implementation::run_until_whole(const StepLimits &limits)
   throw std::runtime_error(
       fmt::format("it did not complete in {} repetitions, in which {} bodies did not stay finite (status {})",
                   most_repetitions + taken_one_by_one, bodies.size(), plan.known[COUNT_STATUS]));
+}
+
+/* Only worlds that choose their substeps ever tell them anew. */
+void World::Implementation::tell_substeps()
+{
+  const std::pair<uint32_t, uint32_t> wanted = {plan.substeps.now, plan.substeps.of_cache};
+  if (wanted == told_substeps) return;
+  settings_in_use = with_substeps(settings, plan.substeps);
+  const Parameters parameters = parameters_now();
+  memory.upload(Buffer::parameters, &parameters, sizeof parameters);
+  told_substeps = wanted;
 }
 
 void World::Implementation::turn() noexcept
@@ -225,6 +237,7 @@ void World::Implementation::accept()
   if (plan.drowsy) plan.island_rounds = std::max<uint32_t>(plan.known[COUNT_ISLAND_ROUNDS] + 2, 4);
   plan.drowsy = plan.known[COUNT_DROWSY] > 0;
   trees_trial.note_step(settings.broadphase == Broadphase::trees, plan.known[COUNT_INSERTED] > 0);
+  settle_substeps(plan.substeps, plan.known[COUNT_LOAD_RATE], settings.step);
   note_sorted();
 }
 
@@ -234,6 +247,7 @@ void World::Implementation::prepare_repetition(uint32_t status, bool &may_forget
   if (status & STATUS_ROUNDS) plan.rounds = std::min(2 * plan.rounds, most_rounds);
   if (status & STATUS_COLORS) plan.colors = plan.known[COUNT_COLORS];
   if (status & STATUS_ISLANDS) plan.island_rounds = std::min(2 * plan.island_rounds, most_rounds);
+  if (status == STATUS_SUBSTEPS) raise_substeps(plan.substeps, plan.known[COUNT_LOAD_RATE], settings.step);
   if (plan.colors > COLOR_LIMIT && !(status & STATUS_PAIRS)) enlarge(plan.capacity_pairs);
   if (status & STATUS_NONFINITE) quarantine_from(plan.known[COUNT_NONFINITE], status);
   note_sorted();

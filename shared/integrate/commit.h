@@ -34,6 +34,7 @@ SHARED void begin_step_item(GLOBAL uint *counts, uint i)
   counts[COUNT_ISLAND_ROUNDS] = 0u;
   counts[COUNT_ISLANDS_OPEN] = 0u;
   counts[COUNT_FALLING_ASLEEP] = 0u;
+  counts[COUNT_LOAD_RATE] = 0u;
 }
 
 SHARED void check_bodies_item(GLOBAL const float4 *body_position, GLOBAL const float4 *solver_velocity,
@@ -47,8 +48,8 @@ SHARED void check_bodies_item(GLOBAL const float4 *body_position, GLOBAL const f
                  NONFINITE_IN_INTEGRATE);
 }
 
-/* colors: the number that the host launched. */
-SHARED void finish_step_item(GLOBAL uint *counts, uint colors, uint i)
+/* colors: the number that the host launched. load_rate: the largest that its substeps bear. */
+SHARED void finish_step_item(GLOBAL uint *counts, uint colors, uint load_rate, uint i)
 {
   (void)i;
   uint status = counts[COUNT_STATUS] & STATUS_DEADLOCK;
@@ -61,6 +62,7 @@ SHARED void finish_step_item(GLOBAL uint *counts, uint colors, uint i)
   if (counts[COUNT_NONFINITE] != INDEX_NONE) status |= STATUS_NONFINITE;
   if (counts[COUNT_ISLANDS_OPEN] != 0u) status |= STATUS_ISLANDS;
   if (counts[COUNT_TOUCHED_SLEEPERS] != 0u) status |= STATUS_WAKE;
+  if (counts[COUNT_LOAD_RATE] > load_rate) status |= STATUS_SUBSTEPS;
   uint whole = status == 0u ? 1u : 0u;
   counts[COUNT_STATUS] = status;
   counts[COUNT_COMMIT_BODIES] = whole * counts[COUNT_BODIES];
@@ -80,6 +82,12 @@ SHARED void commit_bodies_item(GLOBAL const float4 *solver_velocity, GLOBAL cons
   spatial_velocity m = load_velocity(solver_velocity, i);
   store_float4(body_velocity, i * 2u, extend(m.linear, m.inverse_mass));
   store_float4(body_velocity, i * 2u + 1u, extend(m.angular, load_float4(body_mass, i * 2u).w));
+}
+
+SHARED void cache_standing_item(GLOBAL const uint *body_standing, GLOBAL uint *cached_standing, uint i)
+{
+  cached_standing[2u * i] = body_standing[2u * i];
+  cached_standing[2u * i + 1u] = body_standing[2u * i + 1u];
 }
 
 SHARED void cache_starts_item(GLOBAL const uint *pair_start, GLOBAL uint *cached_start, uint i)

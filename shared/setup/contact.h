@@ -351,7 +351,8 @@ SHARED void prepare_point(GLOBAL const Parameters *parameters, const contact_set
                extend(add(arm_a, s->arms_back.a), choose(used, point.w, (real)R(0.0))));
   store_float4(constraint_points, stride * (k + 4u) + i, extend(add(arm_b, s->arms_back.b), mass));
   points->impulse[k] =
-      choose(used & old->is_cached, cached_impulse(s->feature, k, old->feature, old->normal), (real)R(0.0));
+      choose(used & old->is_cached,
+             parameters->warm_start_scale * cached_impulse(s->feature, k, old->feature, old->normal), (real)R(0.0));
   points->target_velocity[k] =
       choose(used, target_velocity_of(parameters, s->between.restitution, speed, s->pull, point.w), (real)R(-1.0));
   points->deepest = choose(used, minimum(points->deepest, point.w), points->deepest);
@@ -374,10 +375,10 @@ SHARED real friction_between(const contact_setup *s, vec3 center_a, vec3 center_
 }
 
 /* The friction impulse of the last step, along the tangents of this step. */
-SHARED vec4 kept_friction(const old_impulses *old, vec3 normal, real radius)
+SHARED vec4 kept_friction(GLOBAL const Parameters *parameters, const old_impulses *old, vec3 normal, real radius)
 {
   tangents t = tangents_of(normal);
-  real kept = choose(old->is_cached, (real)R(1.0), (real)R(0.0));
+  real kept = choose(old->is_cached, (real)parameters->warm_start_scale, (real)R(0.0));
   return make_vec4(kept * dot3(xyz(old->friction), t.first), kept * dot3(xyz(old->friction), t.second),
                    kept * old->friction.w, radius);
 }
@@ -393,7 +394,7 @@ SHARED void prepare_friction(GLOBAL const Parameters *parameters, const contact_
   store_float4(constraints.center, i,
                extend(add(center_a, s->arms_back.a), friction_mass(s->bodies, center_a, center_b, s->normal)));
   store_float4(constraints.center, stride + i, extend(add(center_b, s->arms_back.b), twist_mass(s->bodies, s->normal)));
-  store_float4(constraints.friction_impulse, i, kept_friction(old, s->normal, patch.radius));
+  store_float4(constraints.friction_impulse, i, kept_friction(parameters, old, s->normal, patch.radius));
 }
 
 SHARED void prepare_contacts_item(GLOBAL const Parameters *parameters, GLOBAL const float4 *material,

@@ -37,7 +37,8 @@ SHARED void prepare_rolling_item(GLOBAL const Parameters *parameters, GLOBAL con
                                             material_of(load_uint(body_flags, b)));
   uint_lanes cached = load_uint(pair_cached, pair);
   mask is_cached = cached != (uint_lanes)INDEX_NONE;
-  vec3 kept = xyz(load_float4(cached_rolling_impulse, choose(is_cached, cached, (uint_lanes)0u)));
+  vec3 kept = scale(xyz(load_float4(cached_rolling_impulse, choose(is_cached, cached, (uint_lanes)0u))),
+                    parameters->warm_start_scale);
   vec3 none = make_vec3(R(0.0), R(0.0), R(0.0));
   store_float4(constraint_rolling, i, extend(choose3(is_cached, kept, none), R(0.0)));
   store_float4(constraint_rolling, counts[CAPACITY_PAIRS] + i, make_vec4(r.rolling, r.spinning, R(0.0), R(0.0)));

@@ -68,7 +68,8 @@ SceneOptions::SceneOptions(CLI::App &parser, bool one_backend)
   option("--steps", steps_, "how many steps", "N");
   steps_option_ = parser.get_option("--steps");
   option("--dt", step_, "time step in seconds, or a fraction 1/N", "S");
-  option("--substeps", substeps_, "substeps of a step; what the solver wants if not given", "N");
+  option("--substeps", substeps_,
+         "substeps of a step, or auto: as many as loads and stacks need; what the solver wants if not given", "N");
   option("--iterations", iterations_, "solver passes of a substep; what the solver wants if not given", "N");
   option("--solver", solver_, one_of("solver", choice_names<Solver>()), "NAME");
   option("--broadphase", broadphase_,
@@ -104,7 +105,9 @@ Settings SceneOptions::settings() const
   Settings settings = settings_for(parse_setting<Solver>(solver_));
   if (step_.starts_with("1/")) settings.step = static_cast<float>(1.0 / real_number("--dt", step_.substr(2)));
   else settings.step = static_cast<float>(real_number("--dt", step_));
-  if (!substeps_.empty()) settings.substeps = static_cast<uint32_t>(whole_number("--substeps", substeps_, 1, 1000));
+  if (substeps_ == "auto") settings.substeps = automatic_substeps;
+  else if (!substeps_.empty())
+    settings.substeps = static_cast<uint32_t>(whole_number("--substeps", substeps_, 1, 1000));
   if (!iterations_.empty())
     settings.iterations = static_cast<uint32_t>(whole_number("--iterations", iterations_, 1, 1000));
   settings.broadphase = parse_setting<Broadphase>(broadphase_);

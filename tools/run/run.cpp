@@ -167,6 +167,7 @@ Json outcome_json(const Outcome &outcome, World &world, const Placement &placeme
             {"stalled", statistics.direct_stalled}}},
           {"nonfinite", statistics.nonfinite},
           {"overflow", statistics.overflow},
+          {"substeps", statistics.substeps},
           {"asleep", statistics.asleep},
           {"islands", statistics.sleeping_islands},
           {"memory_bytes", world.memory().total_bytes()},
@@ -209,6 +210,8 @@ std::string facts_table(const Outcome &outcome, World &world)
   if (world.settings().solver == Solver::direct)
     table.add({"islands", fmt::format("{} solved directly ({} solves stalled), {} pairs in larger ones",
                                       statistics.direct_islands, statistics.direct_stalled, statistics.direct_left)});
+  if (world.settings().substeps == automatic_substeps)
+    table.add({"substeps", fmt::format("{} in the next step", statistics.substeps)});
   table.add({"penetration", fmt::format("{:.3g} mm at most, {:.3g} mm on average", statistics.max_penetration * 1e3,
                                         statistics.mean_penetration * 1e3)});
   table.add({"kinetic energy", fmt::format("{:.6g} J", statistics.kinetic_energy)});

@@ -52,10 +52,13 @@ template <Choice T> TANDEM_API T parse_setting(const std::string &name);
 template <Choice T> TANDEM_API std::vector<T> choices();
 template <Choice T> TANDEM_API std::vector<std::string> choice_names();
 
+/* A value of Settings::substeps: each step takes as many as loads and stacks need (docs/stability.md). */
+constexpr uint32_t automatic_substeps = 0;
+
 /* All choices that can change the result, and those that change only the cost. */
 struct Settings {
   float step = 1.0f / 60.0f; /* s, > 0 */
-  uint32_t substeps = 4;     /* 1 .. 1000 */
+  uint32_t substeps = 4;     /* 1 .. 1000, or automatic_substeps */
   uint32_t iterations = 1;   /* solver passes a substep, 1 .. 1000 */
   Solver solver = Solver::soft_step;
   Broadphase broadphase = Broadphase::automatic; /* one of host/pipeline/broadphases/; changes no bit */

@@ -1,0 +1,38 @@
+/* substep_choice.h - the substeps of a world that chooses them itself: Settings::substeps is automatic_substeps.
+ *
+ * A step that finds it needs more is run again with them; they become fewer, by halves, once a second of steps needed
+ * no more than half. Device counts alone decide, so all backends choose alike; and the choice is part of a world's
+ * state, since snapshots and states that are gone back to must go on with it. */
+#pragma once
+
+#include <cstdint>
+
+#include <tandem/settings.h>
+
+namespace tandem {
+
+constexpr uint32_t fewest_automatic_substeps = 4, most_automatic_substeps = 64;
+
+struct SubstepChoice {
+  bool automatic = false;
+  bool starts = true;      /* no step has been done, so nothing is known of what stands on what */
+  uint32_t now = 0;        /* substeps of the next step */
+  uint32_t of_cache = 0;   /* of the step that left the impulses in the cache */
+  uint32_t calm_steps = 0; /* that needed no more than half of them */
+};
+
+SubstepChoice first_choice(const Settings &settings);
+
+/* COUNT_LOAD_RATE up to which these substeps suffice. */
+uint32_t highest_load_rate(const SubstepChoice &choice, float step);
+
+/* After an attempt that needed more: so many that COUNT_LOAD_RATE is not above highest_load_rate, or the most. */
+void raise_substeps(SubstepChoice &choice, uint32_t load_rate, float step);
+
+/* After a step that is done. */
+void settle_substeps(SubstepChoice &choice, uint32_t load_rate, float step);
+
+/* The settings with these substeps, and with contacts as stiff as they allow if they are more than the fewest. */
+Settings with_substeps(const Settings &settings, const SubstepChoice &choice);
+
+} // namespace tandem

@@ -1,0 +1,127 @@
+/* standing.h - what stands on each body, and the rate of substeps that it needs.
+ *
+ * A soft contact under the load F sinks by F / effective mass / w^2, with w = 2 pi 0.2 / h at the stiffest that
+ * substeps of h allow; and a stack of n layers buckles from n^3 = STIFFEST_STACK size / (g h^2) on. Both limit h
+ * (docs/stability.md derives them). The load is the heaviest chain of bodies above, m1 + m2 + ..., but no more than
+ * a contact of the last step has borne, because impacts are short and what leans on several bodies loads each with a
+ * part. A chain passes on at most a few times what its contacts bore, because bodies that clasp one another would stand
+ * on themselves.
+ *
+ *      [m3]           layers 0, weight 0
+ *      [m2]           layers 1, weight m3
+ *      [m1]           layers 2, weight m2 + m3, of all chains the heaviest
+ *
+ * Each pass carries layers and weights down by one body. They are maxima, so their order changes no bit.
+ */
+#ifndef TANDEM_SHARED_SETUP_STANDING_H
+#define TANDEM_SHARED_SETUP_STANDING_H
+
+#include "shared/setup/contact.h"
+
+/* (2 pi 0.2)^2: the square of the frequency of the stiffest contacts, times that of a substep. */
+#define STIFFEST_CONTACT R(1.5791367)
+/* Contacts may sink by so many times the slop under what they carry. */
+#define BEARABLE_SINK R(2.0)
+/* From about 35 cubes of 1 m on, a column buckles at 1/240 s and 10 m/s^2: 35^3 * 10 / 240^2. */
+#define STIFFEST_STACK R(7.44)
+/* The fewest substeps of a step. */
+#define FEWEST_SUBSTEPS R(4.0)
+/* A contact stands if the square of the cosine between normal and gravity is at least this. */
+#define STANDS R(0.5)
+
+/* While a stack comes to rest, its contacts bear less than they will. */
+#define PASSED_ON R(4.0)
+
+typedef struct {
+  uint lower, upper;
+  real inverse_mass, inverse_mass_upper; /* 1/kg; the first of both together */
+  real heavier;                          /* 1/kg, the smaller inverse mass that is not 0 */
+  real up;                               /* the cosine, negative if b is above a */
+  real closing;                          /* m/s */
+} standing_pair;
+
+SHARED standing_pair standing_pair_of(GLOBAL const Parameters *parameters, read_contacts contacts,
+                                      GLOBAL const float4 *solver_velocity, uint i)
+{
+  uint a = contacts.a[i], b = contacts.b[i];
+  spatial_velocity of_a = load_velocity(solver_velocity, a), of_b = load_velocity(solver_velocity, b);
+  vec3 normal = xyz(load_float4(contacts.normal, i));
+  real up = dot3(gravity_of(parameters), normal) / parameters->gravity_length;
+  real least = minimum(of_a.inverse_mass, of_b.inverse_mass), sum = of_a.inverse_mass + of_b.inverse_mass;
+  standing_pair p = {up < R(0.0) ? a : b,
+                     up < R(0.0) ? b : a,
+                     sum,
+                     up < R(0.0) ? of_b.inverse_mass : of_a.inverse_mass,
+                     least > R(0.0) ? least : sum,
+                     up,
+                     dot3(normal, subtract(of_a.linear, of_b.linear))};
+  return p;
+}
+
+/* The force that the contact bore in the last step, N; 0 if it is new. */
+SHARED real force_borne(GLOBAL const Parameters *parameters, GLOBAL const float4 *constraint_normal_impulse, uint i)
+{
+  vec4 impulse = load_float4(constraint_normal_impulse, i);
+  return ((impulse.x + impulse.y) + (impulse.z + impulse.w)) * parameters->inverse_substep;
+}
+
+/* Whether some point is as near as gravity closes within the step. */
+SHARED uint stands_near(GLOBAL const Parameters *parameters, GLOBAL const float4 *constraint_points, uint stride,
+                        uint i)
+{
+  real reach = R(0.5) * parameters->gravity_length * parameters->step * parameters->step;
+  for (uint k = 0; k < 4u; ++k)
+    if (load_float4(constraint_points, stride * (k + 4u) + i).w > R(0.0) &&
+        load_float4(constraint_points, stride * k + i).w <= reach)
+      return 1u;
+  return 0u;
+}
+
+/* The square of the rate of substeps that the contact needs, 1/s^2. */
+SHARED real rate_needed(GLOBAL const Parameters *parameters, const standing_pair *p, real load, uint layers, real slop,
+                        real size)
+{
+  real sinks = load * p->inverse_mass / (STIFFEST_CONTACT * BEARABLE_SINK * slop);
+  real tall = minimum((real)layers, load * p->heavier / parameters->gravity_length);
+  real buckles = tall * tall * tall * parameters->gravity_length / (STIFFEST_STACK * R(2.0) * size);
+  return maximum(sinks, buckles);
+}
+
+/* Rates that the fewest substeps have are not noted, so that few contacts meet at the maximum. */
+SHARED void note_rate(GLOBAL const Parameters *parameters, real rate, GLOBAL uint *counts)
+{
+  real fewest = FEWEST_SUBSTEPS / parameters->step;
+  if (rate > fewest * fewest && rate < R(1e30)) ATOMIC_MAX(counts + COUNT_LOAD_RATE, FLOAT_BITS(rate));
+}
+
+/* standing_above: of the pass before, or of the last step. standing: is 0 before. */
+SHARED void weigh_standing_item(GLOBAL const Parameters *parameters, GLOBAL const float4 *body_shape,
+                                GLOBAL const float4 *solver_velocity, GLOBAL const uint *pair_cached,
+                                GLOBAL const uint *constraint_pair, read_contacts contacts,
+                                GLOBAL const float4 *constraint_points, GLOBAL const float4 *constraint_normal_impulse,
+                                GLOBAL const uint *standing_above, GLOBAL uint *standing, GLOBAL uint *counts, uint i)
+{
+  if (!(parameters->gravity_length > R(0.0))) return;
+  standing_pair p = standing_pair_of(parameters, contacts, solver_velocity, i);
+  if (!(p.up * p.up >= STANDS) || !(p.inverse_mass_upper > R(0.0))) return;
+  real borne = force_borne(parameters, constraint_normal_impulse, i);
+  uint is_new = pair_cached[constraint_pair[i]] == INDEX_NONE ? 1u : 0u;
+  if (!(borne > R(0.0)) && (p.closing > parameters->gravity_length * parameters->step ||
+                            !stands_near(parameters, constraint_points, counts[CAPACITY_PAIRS], i)))
+    return;
+  uint layers = standing_above[2u * p.upper] + 1u;
+  real weight = R(1.0) / p.inverse_mass_upper + BITS_FLOAT(standing_above[2u * p.upper + 1u]);
+  if (borne > R(0.0)) weight = minimum(weight, PASSED_ON * borne / parameters->gravity_length);
+  if (p.inverse_mass > p.inverse_mass_upper) { /* what cannot move bears everything */
+    ATOMIC_MAX(standing + 2u * p.lower, layers);
+    ATOMIC_MAX(standing + 2u * p.lower + 1u, FLOAT_BITS(weight));
+  }
+  real load = parameters->gravity_length * weight;
+  if (!is_new) load = minimum(load, borne);
+  real size = size_between(body_shape, contacts.a[i], contacts.b[i]);
+  real slop = parameters->slop;
+  if (size > R(0.0)) slop = minimum(slop, parameters->slop_share * size);
+  note_rate(parameters, rate_needed(parameters, &p, load, layers, slop, size > R(0.0) ? size : R(0.5)), counts);
+}
+
+#endif
