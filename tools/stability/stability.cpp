@@ -29,7 +29,7 @@ using stability::Case;
 using stability::Length;
 
 struct StabilityOptions {
-  std::string only, except, solvers, on = "tbb", out, between;
+  std::string only, except, solvers, on = "tbb", out, between, substeps;
   size_t at_once = 0; /* 0: one for each processor */
   bool quick = false, list = false, inexact = false, bounds = false;
   MarkedTable table;
@@ -56,6 +56,32 @@ std::vector<std::string> case_names_in(const char *option, const std::string &te
   return names;
 }
 
+/* The case with substeps that the world chooses, unless it is about their number. */
+Case with_automatic_substeps(const Case &given)
+{
+  Case automatic = given;
+  automatic.build = [given](Length length) {
+    stability::Trial trial = given.build(length);
+    if (!trial.own_passes) trial.settings.substeps = automatic_substeps;
+    trial.own_passes = true;
+    return trial;
+  };
+  return automatic;
+}
+
+const std::vector<Case> &cases_of(const StabilityOptions &options)
+{
+  if (options.substeps.empty()) return stability::all_cases();
+  if (options.solvers != name_of(Solver::soft_step))
+    throw InputError("--substeps auto: only soft-step chooses its substeps; add --solvers soft-step");
+  static const std::vector<Case> automatic = [] {
+    std::vector<Case> all;
+    for (const Case &each : stability::all_cases()) all.push_back(with_automatic_substeps(each));
+    return all;
+  }();
+  return automatic;
+}
+
 std::vector<const Case *> chosen_cases(const StabilityOptions &options)
 {
   const std::vector<std::string> wanted = case_names_in("--only", options.only),
@@ -64,7 +90,7 @@ std::vector<const Case *> chosen_cases(const StabilityOptions &options)
     return std::find(names.begin(), names.end(), each.name) != names.end();
   };
   std::vector<const Case *> chosen;
-  for (const Case &each : stability::all_cases())
+  for (const Case &each : cases_of(options))
     if ((options.only.empty() || named(wanted, each)) && !named(unwanted, each)) chosen.push_back(&each);
   if (chosen.empty()) throw InputError("--except: no case is left");
   return chosen;
@@ -125,6 +151,7 @@ std::string command_text(const StabilityOptions &options, bool files = true)
   add("--only", options.only);
   add("--except", options.except);
   add("--solvers", options.solvers);
+  add("--substeps", options.substeps);
   add("--on", options.on == "tbb" ? "" : options.on);
   if (options.at_once > 0) text += fmt::format(" --cases-in-parallel {}", options.at_once);
   if (files) add("--out", options.out);
@@ -280,6 +307,11 @@ Command stability_command(CLI::App &parser)
   command->add_option("--only", options->only, "these cases alone")->type_name("CASE,...");
   command->add_option("--except", options->except, "all but these cases")->type_name("CASE,...");
   command->add_option("--solvers", options->solvers, "these solvers alone")->type_name("NAME,...");
+  command
+      ->add_option("--substeps", options->substeps,
+                   "auto: cases that are not about substeps run with as many as needed")
+      ->type_name("auto")
+      ->check(CLI::IsMember({"auto"}));
   command->add_option("--on", options->on, "backend")->type_name("B")->capture_default_str();
   command->add_option("--out", options->out, "write the results into this folder")->type_name("DIR");
   command->add_option("--json", options->json.path, "write the results as JSON; - for standard output")
