@@ -53,7 +53,7 @@ template <Choice T> TANDEM_API std::vector<T> choices();
 template <Choice T> TANDEM_API std::vector<std::string> choice_names();
 
 /* A value of Settings::substeps: each step takes as many as loads and stacks need (docs/stability.md). */
-constexpr uint32_t automatic_substeps = 0;
+constexpr uint32_t automatic_substeps = UINT32_MAX;
 
 /* All choices that can change the result, and those that change only the cost. */
 struct Settings {

@@ -23,11 +23,13 @@ struct Case {
   const char *scene;
   Solver solver;
   Broadphase broadphase;
+  bool automatic = false; /* substeps */
 };
 
 /* Together they carry over every buffer that there is. */
 const std::vector<Case> cases = {
     {"box-grid:nx=2,ny=2,nz=2", Solver::soft_step, Broadphase::grid},
+    {"box-grid:nx=2,ny=2,nz=2", Solver::soft_step, Broadphase::grid, true},
     {"box-grid:nx=2,ny=2,nz=2", Solver::xpbd, Broadphase::trees},
     {"box-grid:nx=2,ny=2,nz=2", Solver::avbd, Broadphase::sap3},
     {"compounds:n=6", Solver::pgs, Broadphase::bvh},
@@ -40,6 +42,7 @@ std::unique_ptr<World> world_of(const Case &c, uint64_t steps)
 {
   Settings settings = settings_for(c.solver);
   settings.broadphase = c.broadphase;
+  if (c.automatic) settings.substeps = automatic_substeps;
   settings.events = true;
   settings.sleeping = true;
   auto world = std::make_unique<World>(load_scene(c.scene), settings, Placement{"serial", {}, false});

@@ -1,0 +1,115 @@
+/* Worlds that choose their substeps: loads and stacks get as many as they need, others the bits of four. */
+#include <bit>
+
+#include "host/catalog/catalog.h"
+#include "host/pipeline/substep_choice.h"
+#include "tests/physics/physics.h"
+
+using namespace tandem;
+using namespace tandem::physics_tests;
+
+namespace {
+
+Settings automatic(double step = 1.0 / 60) { return settings_with(step, automatic_substeps); }
+
+/* Cubes of 1 m on one another on the ground, from the lowest. */
+Scene column_of(const std::vector<float> &masses)
+{
+  Scene scene = load_scene("box-stack:n=" + std::to_string(masses.size()) + ",height=" + std::to_string(masses.size()));
+  for (size_t i = 0; i < masses.size(); ++i) scene.bodies[i + 1].mass = masses[i];
+  return scene;
+}
+
+/* m: how much lower the highest cube is than at the start. */
+double sunk(World &world, const Scene &scene)
+{
+  return scene.bodies.back().position[1] - world.bodies().back().position[1];
+}
+
+uint32_t bits_of(float x) { return std::bit_cast<uint32_t>(x); }
+
+} // namespace
+
+TEST_CASE("automatic substeps: a load of a thousand to one stands, and gets what its sink under gravity needs",
+          "[physics]")
+{
+  const Scene scene = column_of({1, 1000});
+  World chosen(scene, automatic(), {}), four(scene, settings_with(1.0 / 60), {});
+  run(chosen, 300);
+  run(four, 300);
+  CHECK(sunk(four, scene) > 0.5); /* the light cube has left */
+  CHECK(sunk(chosen, scene) < 0.04);
+  /* load / effective mass = 10,010 m/s^2 may sink by two slops: 796 substeps a second and more */
+  CHECK(chosen.statistics().substeps == 16);
+}
+
+TEST_CASE("automatic substeps: a tall column stands from the first step on", "[physics]")
+{
+  const Scene scene = column_of(std::vector<float>(60, 1));
+  World world(scene, automatic(), {});
+  world.step();
+  CHECK(world.statistics().substeps == 16); /* 60^3 layers buckle below 539 substeps a second */
+  run(world, 200);
+  CHECK(sunk(world, scene) < 60 * 0.005);
+}
+
+TEST_CASE("automatic substeps: what needs no more than four has their bits", "[physics]")
+{
+  const char *name = GENERATE("box-grid:nx=5,ny=5,nz=5", "falling-boxes:n=60,height=0", "box-stack:n=40,height=10");
+  World chosen(load_scene(name), automatic(), {}), four(load_scene(name), settings_with(1.0 / 60), {});
+  run(chosen, 60);
+  run(four, 60);
+  CAPTURE(name);
+  CHECK(chosen.statistics().substeps == 4);
+  CHECK(chosen.body_hash() == four.body_hash());
+}
+
+TEST_CASE("automatic substeps: they become fewer when the load has gone", "[physics]")
+{
+  World world(column_of({1, 1000}), automatic(), {});
+  run(world, 5);
+  REQUIRE(world.statistics().substeps == 16);
+  const std::vector<BodyId> ids = world.body_ids();
+  world.destroy_body(ids.back());
+  run(world, 61);
+  CHECK(world.statistics().substeps == 8);
+  run(world, 61);
+  CHECK(world.statistics().substeps == 4);
+}
+
+TEST_CASE("automatic substeps: a restored world and one that went back go on with the same bits", "[physics]")
+{
+  World world(column_of({1, 1000}), automatic(), {});
+  world.keep_states(2);
+  run(world, 10);
+  World restored(world.save(), Placement{});
+  run(world, 20);
+  run(restored, 20);
+  CHECK(restored.state_hash() == world.state_hash());
+  world.go_back(1);
+  world.step();
+  CHECK(restored.state_hash() == world.state_hash());
+}
+
+TEST_CASE("automatic substeps: raised to what bears the rate, and halved after a second of calm", "[physics]")
+{
+  SubstepChoice choice = first_choice(automatic());
+  const float step = 1.0f / 64;
+  raise_substeps(choice, bits_of(1000.0f * 1000.0f), step);
+  CHECK(choice.now == 16); /* 1024 a second */
+  CHECK(choice.of_cache == 4);
+  raise_substeps(choice, bits_of(1e20f), step);
+  CHECK(choice.now == most_automatic_substeps);
+  for (int i = 0; i < 63; ++i) settle_substeps(choice, bits_of(1000.0f * 1000.0f), step);
+  CHECK(choice.now == 64);
+  settle_substeps(choice, bits_of(1000.0f * 1000.0f), step);
+  CHECK(choice.now == 32);
+  CHECK(choice.of_cache == 64);
+}
+
+TEST_CASE("automatic substeps are refused to solvers that do not choose", "[physics]")
+{
+  Settings settings = automatic();
+  settings.solver = Solver::pgs;
+  CHECK_THROWS_AS(validate(settings), InputError);
+}
