@@ -9,8 +9,8 @@
  *
  * A launch takes a GPU some microseconds whatever it does, and a step makes some 170. The host writes the kernel
  * run_phases behind this text, with a case for each kind of phase that a scene has (host/runtime/opencl/phases.h). A
- * case calls the function that the kernel's own entry calls, over the same range, so the bits are the same. Whatever the
- * range holds is processed: how many groups take part is a matter of speed alone.
+ * case calls the function that the kernel's own entry calls, over the same range, so the bits are the same. Whatever
+ * the range holds is processed: how many groups take part is a matter of speed alone.
  *
  * OpenCL does not promise that the groups of a launch run together. A program with RESIDENT_GROUPS is used with no more
  * groups than a test at its start showed to do so (host/runtime/opencl/resident_groups.h), after Xiao and Feng,
@@ -66,8 +66,8 @@ static inline uint wait_for_arrivals(volatile __global uint *arrivals, uint want
   return 1u;
 }
 
-/* One item of a group reports what the whole group has written, and waits for the others. It returns whether they failed
- * to come. */
+/* One item of a group reports what the whole group has written, and waits for the others. It returns whether they
+ * failed to come. */
 static inline uint meet_other_groups(volatile __global uint *arrivals, uint wanted, uint patience)
 {
   FENCE_BETWEEN_GROUPS;
@@ -78,13 +78,13 @@ static inline uint meet_other_groups(volatile __global uint *arrivals, uint want
   return !all_came;
 }
 
-/* One phase of the test of a device: a group takes the number that its neighbour has, and adds one. */
+/* One phase of the test of a device: each item takes the number that the neighbouring group's has, and adds one. */
 static inline void pass_on(__global uint *ring, uint phase)
 {
-  const uint group = (uint)get_group_id(0), groups = (uint)get_num_groups(0);
-  __global const uint *from = ring + (phase % 2u) * groups;
-  __global uint *to = ring + (1u - phase % 2u) * groups;
-  if (get_local_id(0) == 0u) to[group] = from[(group + 1u) % groups] + 1u;
+  const uint place = (uint)get_global_id(0), places = (uint)get_global_size(0);
+  __global const uint *from = ring + (phase % 2u) * places;
+  __global uint *to = ring + (1u - phase % 2u) * places;
+  to[place] = from[(place + (uint)get_local_size(0)) % places] + 1u;
 }
 
 /* The place of an item among those of all groups. 32 items in a row stay in one group, so that they read memory

@@ -58,6 +58,9 @@ namespace {
 /* The approximate number of items in a task; small kernels stay on one thread. Threads that wait for the next launch
  * of a series cost less than tasks. */
 constexpr uint32_t items_per_task = 128, items_per_part = 32;
+/* A series whose largest launch has fewer is done sooner by one thread than others come: 100 boxes in 0.26 ms, and in
+ * 0.45 by twelve. */
+constexpr uint32_t items_worth_a_region = 1024;
 constexpr size_t launches_at_once = 1024; /* a whole step */
 
 /* The table for one item at a time. Width 1 uses the plain one, with which parity tests compare the others. */
@@ -169,13 +172,10 @@ public:
   void run_series(std::span<const BoundLaunch> series, void *counts) override
   {
     if (!arena_ || profiling_) return Backend::run_series(series, counts);
-    for (size_t i = 0; i < 2 * series.size(); ++i)
-      if (faults::strikes(faults::Site::launch)) throw std::bad_alloc();
-    launches += series.size();
-    SeriesOfLaunches rows(*this, series, static_cast<const uint32_t *>(counts));
-    const ExactFloatingPoint environment;
-    region_->begin(rows, most_parts(series));
-    if (!region_->has_ended()) run_region();
+    size_t whole = 0;
+    while (whole < series.size() && !faults::strikes(faults::Site::launch)) ++whole;
+    run_whole(series.first(whole), static_cast<const uint32_t *>(counts));
+    if (whole < series.size() || faults::strikes(faults::Site::launch)) throw std::bad_alloc();
   }
 
 private:
@@ -196,6 +196,16 @@ private:
     for (size_t i = 0; i < bound.size(); ++i)
       arguments.push_back(row.arguments[i].kind == Argument::Kind::value ? const_cast<uint32_t *>(&bound[i].value)
                                                                          : bound[i].handle);
+  }
+
+  void run_whole(std::span<const BoundLaunch> series, const uint32_t *counts)
+  {
+    launches += series.size();
+    SeriesOfLaunches rows(*this, series, counts);
+    const ExactFloatingPoint environment;
+    region_->begin(rows, threads_for(series));
+    if (!region_->has_ended()) run_region();
+    if (!region_->has_ended()) throw std::runtime_error("TBB left a series of launches before its end");
   }
 
   class SeriesOfLaunches : public LaunchesOfRegion {
@@ -231,13 +241,15 @@ private:
     const uint32_t *counts_;
   };
 
-  /* Of the largest launch: more threads would come for nothing. */
-  static uint32_t most_parts(std::span<const BoundLaunch> series)
+  /* More threads than the largest launch has parts would come for nothing. */
+  static uint32_t threads_for(std::span<const BoundLaunch> series)
   {
-    uint32_t most = 1;
-    for (const BoundLaunch &bound : series)
-      most = std::max(most, bound.items / (is_group(bound.launch.kernel) ? TILE : items_per_part) + 1);
-    return most;
+    uint32_t items = 0, parts = 1;
+    for (const BoundLaunch &bound : series) {
+      items = std::max(items, bound.items);
+      parts = std::max(parts, bound.items / (is_group(bound.launch.kernel) ? TILE : items_per_part) + 1);
+    }
+    return items < items_worth_a_region ? 1 : parts;
   }
 
   void run_region()
@@ -325,8 +337,8 @@ private:
     const size_t granted = settle_threads();
     if (arena_) return;
     const auto threads = static_cast<uint32_t>(std::min<size_t>(threads_, granted));
+    region_.emplace(threads); /* first, because the arena says that both are there */
     arena_.emplace(static_cast<int>(threads));
-    region_.emplace(threads);
   }
 
   /* The bit is set without ordering threads, because the thread sanitizer would otherwise not see races. */

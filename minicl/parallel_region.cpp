@@ -61,9 +61,9 @@ void ParallelRegion::open_after(size_t launch)
 
 uint32_t ParallelRegion::parts_of(const LaunchesOfRegion::Range &range) const
 {
-  const uint32_t items = range.last > range.first ? range.last - range.first : 0;
+  const uint64_t items = range.last > range.first ? range.last - range.first : 0;
   const uint32_t most = range.stays_on_thread || threads_ == 1 ? threads_ : threads_ * parts_of_thread;
-  return std::min((items + range.items_of_part - 1) / range.items_of_part, items > 0 ? most : 0);
+  return static_cast<uint32_t>(std::min<uint64_t>((items + range.items_of_part - 1) / range.items_of_part, most));
 }
 
 /* Parts end at whole lanes, because what is left of them runs item by item. */

@@ -122,8 +122,7 @@ enum {
   STATUS_ISLANDS = 16,  /* islands need more rounds */
   STATUS_WAKE = 32,     /* sleeping bodies were touched: wake their islands and run the step again */
   STATUS_SUBSTEPS = 64, /* loads and stacks need more substeps */
-  STATUS_DEADLOCK =
-      128 /* the work-groups of a launch did not run together (cl/phases.cl): the device is of no more use */
+  STATUS_DEADLOCK = 128 /* work-groups of a launch waited for each other in vain (cl/phases.cl) */
 };
 
 /* The stage that first saw a body non-finite, in pipeline order. */

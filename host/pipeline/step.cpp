@@ -167,7 +167,7 @@ private:
   void commit()
   {
     run(Kernel::check_bodies);
-    run(Kernel::finish_step, {plan().colors, highest_load_rate(plan().substeps, settings().step)});
+    run(Kernel::finish_step, {plan().colors, highest_load_rate(plan().substeps, settings())});
     if (has(FEATURE_EVENTS)) list_events();
     if (settings().pair_events) list_pair_events();
     launcher().begin_commit();

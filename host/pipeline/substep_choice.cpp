@@ -11,12 +11,26 @@ namespace {
 
 constexpr uint32_t every_rate = 0xffffffffu;
 
-/* The bits of floats that are not negative are in the order of the floats. */
-uint32_t highest_load_rate_of(uint32_t substeps, float step)
+/* The share of the substep rate that the stiffest contacts have, in hertz. */
+constexpr double stiffest_share = 0.2;
+
+/* Who asks for softer contacts than the default gets them, whatever stands on them. */
+bool may_stiffen(const Settings &settings) { return settings.contact_hertz >= Settings{}.contact_hertz; }
+
+float contact_hertz_with(const Settings &settings, uint32_t substeps)
+{
+  if (substeps <= fewest_automatic_substeps || !may_stiffen(settings)) return settings.contact_hertz;
+  return std::max(settings.contact_hertz, round_to_float(stiffest_share * substeps / double{settings.step}));
+}
+
+/* Contacts softer than substeps allow, as four of them have in steps shorter than 1/75 s, bear what fewer would. The
+ * bits of floats that are not negative are in the order of the floats. */
+uint32_t highest_load_rate_of(const Settings &settings, uint32_t substeps)
 {
   if (substeps >= most_automatic_substeps) return every_rate;
-  const float rate = static_cast<float>(substeps) / step;
-  return std::bit_cast<uint32_t>(rate * rate);
+  double rate = substeps / double{settings.step};
+  if (may_stiffen(settings)) rate = std::min(rate, contact_hertz_with(settings, substeps) / stiffest_share);
+  return std::bit_cast<uint32_t>(round_to_float(rate * rate));
 }
 
 } // namespace
@@ -29,39 +43,35 @@ SubstepChoice first_choice(const Settings &settings)
   return choice;
 }
 
-uint32_t highest_load_rate(const SubstepChoice &choice, float step)
+uint32_t highest_load_rate(const SubstepChoice &choice, const Settings &settings)
 {
-  return choice.automatic ? highest_load_rate_of(choice.now, step) : every_rate;
+  return choice.automatic ? highest_load_rate_of(settings, choice.now) : every_rate;
 }
 
-void raise_substeps(SubstepChoice &choice, uint32_t load_rate, float step)
+void raise_substeps(SubstepChoice &choice, uint32_t load_rate, const Settings &settings)
 {
-  while (load_rate > highest_load_rate_of(choice.now, step)) choice.now *= 2;
+  while (load_rate > highest_load_rate_of(settings, choice.now)) choice.now *= 2;
   choice.calm_steps = 0;
 }
 
-void settle_substeps(SubstepChoice &choice, uint32_t load_rate, float step)
+void settle_substeps(SubstepChoice &choice, uint32_t load_rate, const Settings &settings)
 {
   if (!choice.automatic) return;
   choice.starts = false;
   choice.of_cache = choice.now;
   const uint32_t half = choice.now / 2;
-  const bool is_calm = half >= fewest_automatic_substeps && load_rate <= highest_load_rate_of(half, step);
+  const bool is_calm = half >= fewest_automatic_substeps && load_rate <= highest_load_rate_of(settings, half);
   choice.calm_steps = is_calm ? choice.calm_steps + 1 : 0;
-  if (static_cast<float>(choice.calm_steps) * step < 1) return;
+  if (static_cast<float>(choice.calm_steps) * settings.step < 1) return;
   choice.now = half;
   choice.calm_steps = 0;
 }
 
-/* Who asks for softer contacts than the default gets them, whatever stands on them. */
 Settings with_substeps(const Settings &settings, const SubstepChoice &choice)
 {
   Settings chosen = settings;
   chosen.substeps = choice.now;
-  const bool stiffens =
-      choice.automatic && choice.now > fewest_automatic_substeps && settings.contact_hertz >= Settings{}.contact_hertz;
-  const double stiffest = 0.2 * choice.now / double{settings.step};
-  if (stiffens) chosen.contact_hertz = std::max(settings.contact_hertz, round_to_float(stiffest));
+  if (choice.automatic) chosen.contact_hertz = contact_hertz_with(settings, choice.now);
   return chosen;
 }
 

@@ -24,13 +24,13 @@ struct SubstepChoice {
 SubstepChoice first_choice(const Settings &settings);
 
 /* COUNT_LOAD_RATE up to which these substeps suffice. */
-uint32_t highest_load_rate(const SubstepChoice &choice, float step);
+uint32_t highest_load_rate(const SubstepChoice &choice, const Settings &settings);
 
 /* After an attempt that needed more: so many that COUNT_LOAD_RATE is not above highest_load_rate, or the most. */
-void raise_substeps(SubstepChoice &choice, uint32_t load_rate, float step);
+void raise_substeps(SubstepChoice &choice, uint32_t load_rate, const Settings &settings);
 
 /* After a step that is done. */
-void settle_substeps(SubstepChoice &choice, uint32_t load_rate, float step);
+void settle_substeps(SubstepChoice &choice, uint32_t load_rate, const Settings &settings);
 
 /* The settings with these substeps, and with contacts as stiff as they allow if they are more than the fewest. */
 Settings with_substeps(const Settings &settings, const SubstepChoice &choice);

@@ -250,6 +250,9 @@ void stage_new_bodies(StagedUploads &uploads, const Scene &scene, const HullNumb
   masses.stage(uploads, first);
   uploads.add(Buffer::body_force, std::vector<float4>(2 * bodies.size()), first);
   uploads.add(Buffer::body_tree, std::vector<uint32_t>(2 * bodies.size(), INDEX_NONE), first);
+  /* The places may be those of bodies of a state that was gone back from. */
+  uploads.add(Buffer::resting_steps, std::vector<uint32_t>(bodies.size()), first);
+  uploads.add(Buffer::cached_standing, std::vector<uint32_t>(2 * bodies.size()), first);
   states.stage(uploads, first);
   shapes.stage(uploads, first);
 }

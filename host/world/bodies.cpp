@@ -117,8 +117,9 @@ public:
   explicit LayoutBackup(Implementation &world)
       : world_(&world), special_(world.special), features_(world.scene_features), hulls_(world.hulls),
         trees_(world.trees), plan_(world.plan), broadphase_(world.settings.broadphase), chosen_for_(world.chosen_for),
-        broadphase_why_(world.broadphase_why), entries_(world.scene_entries), needs_(world.buffers.needs()),
-        slots_(world.slots), shapes_(world.uploaded_shapes), materials_(world.uploaded_materials)
+        broadphase_why_(world.broadphase_why), chosen_moving_(world.chosen_moving), entries_(world.scene_entries),
+        needs_(world.buffers.needs()), slots_(world.slots), shapes_(world.uploaded_shapes),
+        materials_(world.uploaded_materials)
   {}
   ~LayoutBackup()
   {
@@ -131,6 +132,7 @@ public:
     world_->take_broadphase(broadphase_);
     world_->chosen_for = std::move(chosen_for_);
     world_->broadphase_why = std::move(broadphase_why_);
+    world_->chosen_moving = chosen_moving_;
     world_->scene_entries = std::move(entries_);
     world_->buffers.give_back_needs(std::move(needs_));
     world_->slots = std::move(slots_);
@@ -150,6 +152,7 @@ private:
   StepPlan plan_;
   Broadphase broadphase_;
   std::string chosen_for_, broadphase_why_;
+  bool chosen_moving_;
   std::vector<std::pair<int, uint32_t>> entries_;
   StepBuffers::Needs needs_;
   BodySlots slots_;

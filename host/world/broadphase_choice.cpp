@@ -36,17 +36,22 @@ bool World::Implementation::is_still_right() const
 /* Comes before launches, because it forgets the counts. If it throws, all is as before. */
 void World::Implementation::choose_again()
 {
-  const Broadphase before = settings.broadphase;
-  choose_broadphase_after(before);
-  if (settings.broadphase == before) return;
   StepBuffers::Needs needs_before = buffers.needs();
+  const Broadphase before = settings.broadphase;
+  const bool moving_before = chosen_moving;
+  std::string for_before = chosen_for, why_before = broadphase_why;
   try {
+    choose_broadphase_after(before);
+    if (settings.broadphase == before) return;
     record_kernels();
     place_again();
     forget_kept(memory);
     buffers.make_ready(sizes());
   } catch (...) {
     take_broadphase(before);
+    chosen_moving = moving_before;
+    chosen_for = std::move(for_before);
+    broadphase_why = std::move(why_before);
     buffers.give_back_needs(std::move(needs_before));
     throw;
   }

@@ -78,12 +78,7 @@ std::vector<ClosestPoints> closest_points(Memory &memory, Launcher &launcher, st
   memory.resize(Buffer::closest_normal, pairs.size() * sizeof(float4));
   memory.resize(Buffer::closest_point, 4 * pairs.size() * sizeof(float4));
   set_length(memory, static_cast<uint32_t>(pairs.size()));
-  launcher.launch({Kernel::find_closest_points,
-                   {},
-                   {},
-                   COUNT_ZERO,
-                   COUNT_LENGTH,
-                   static_cast<uint32_t>(pairs.size())});
+  launcher.launch({Kernel::find_closest_points, {}, {}, COUNT_ZERO, COUNT_LENGTH, static_cast<uint32_t>(pairs.size())});
   const auto normals = memory.read<float4>(Buffer::closest_normal, pairs.size()),
              points = memory.read<float4>(Buffer::closest_point, 4 * pairs.size());
   std::vector<ClosestPoints> found;

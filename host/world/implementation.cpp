@@ -125,6 +125,7 @@ void World::Implementation::place(const Placement &placement)
 {
   backends.place(placement, buffers.needs().kernels);
   buffers.changed();
+  structure_state = 0; /* queries on another backend may traverse another structure */
 }
 
 void World::Implementation::place_again()

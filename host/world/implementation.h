@@ -244,7 +244,7 @@ struct World::Implementation {
   Scene scene;
   Settings settings;
   Settings settings_in_use; /* with the substeps of the present step */
-  const bool chooses; /* the settings asked for `auto`; settings.broadphase is what was chosen */
+  const bool chooses;       /* the settings asked for `auto`; settings.broadphase is what was chosen */
   TreesTrial trees_trial;
   bool chosen_moving = false;              /* whether it paused then */
   std::string chosen_for;                  /* the backend for which it was */

@@ -151,4 +151,9 @@ uint32_t PlacedBackends::resident_groups() const
   return most;
 }
 
+void PlacedBackends::do_without_resident_groups()
+{
+  for (const auto &[text, backend] : backends_) backend->do_without_resident_groups();
+}
+
 } // namespace tandem

@@ -43,6 +43,7 @@ public:
   double build_milliseconds() const;
   uint64_t launches() const;
   uint32_t resident_groups() const;
+  void do_without_resident_groups();
 
 private:
   void assign(const Placement &placement, const std::vector<Kernel> &kernels, bool in_background);

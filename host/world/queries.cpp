@@ -162,8 +162,7 @@ void check_convex(const Shape &shape, const char *query, const char *done)
 void check_pose(const Pose &pose, const char *query, size_t index)
 {
   if (!is_finite_vector(pose.position))
-    refuse(query, index,
-           fmt::format("position is {}; three finite numbers are needed", vector_text(pose.position)));
+    refuse(query, index, fmt::format("position is {}; three finite numbers are needed", vector_text(pose.position)));
   const Quat &q = pose.orientation;
   const double square = double{q[0]} * q[0] + double{q[1]} * q[1] + double{q[2]} * q[2] + double{q[3]} * q[3];
   if (!(std::abs(square - 1) < 2e-3))

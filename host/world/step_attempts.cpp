@@ -4,6 +4,7 @@
 #include <new>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -16,6 +17,8 @@
 
 namespace tandem {
 namespace {
+
+constexpr uint32_t lacks_contacts = STATUS_PAIRS | STATUS_ROUNDS | STATUS_COLORS | STATUS_WAKE;
 
 /* Each repetition fixes one cause; many repetitions in one step mean that something is wrong. */
 constexpr size_t most_repetitions = 64;
@@ -111,11 +114,8 @@ void World::Implementation::run_until_whole(const StepLimits &limits)
     launcher.launch_in_series(counts_expected(), [this] { launch_step(launcher, plan, settings_in_use); });
     memory.download(Buffer::counts, plan.known.data(), sizeof plan.known);
     launches_ended = true;
-    check_limits(limits);
+    if (!(plan.known[COUNT_STATUS] & STATUS_DEADLOCK)) check_limits(limits);
     if (plan.known[COUNT_STATUS] == 0) return accept();
-    if (plan.known[COUNT_STATUS] & STATUS_DEADLOCK)
-      throw std::runtime_error("work-groups of a launch waited for each other in vain; TANDEM_PHASES=separate in the "
-                               "environment makes launches that do not wait");
     turn_back();
     prepare_repetition(plan.known[COUNT_STATUS], may_forget);
   }
@@ -131,9 +131,14 @@ void World::Implementation::tell_substeps()
 {
   const std::pair<uint32_t, uint32_t> wanted = {plan.substeps.now, plan.substeps.of_cache};
   if (wanted == told_substeps) return;
-  settings_in_use = with_substeps(settings, plan.substeps);
-  const Parameters parameters = parameters_now();
-  memory.upload(Buffer::parameters, &parameters, sizeof parameters);
+  Settings before = std::exchange(settings_in_use, with_substeps(settings, plan.substeps));
+  try {
+    const Parameters parameters = parameters_now();
+    memory.upload(Buffer::parameters, &parameters, sizeof parameters);
+  } catch (...) {
+    settings_in_use = std::move(before);
+    throw;
+  }
   told_substeps = wanted;
 }
 
@@ -237,17 +242,19 @@ void World::Implementation::accept()
   if (plan.drowsy) plan.island_rounds = std::max<uint32_t>(plan.known[COUNT_ISLAND_ROUNDS] + 2, 4);
   plan.drowsy = plan.known[COUNT_DROWSY] > 0;
   trees_trial.note_step(settings.broadphase == Broadphase::trees, plan.known[COUNT_INSERTED] > 0);
-  settle_substeps(plan.substeps, plan.known[COUNT_LOAD_RATE], settings.step);
+  settle_substeps(plan.substeps, plan.known[COUNT_LOAD_RATE], settings);
   note_sorted();
 }
 
 void World::Implementation::prepare_repetition(uint32_t status, bool &may_forget)
 {
   const uint32_t needed = plan.known[COUNT_PAIRS_NEEDED];
+  if (status & STATUS_DEADLOCK) return backends.do_without_resident_groups();
   if (status & STATUS_ROUNDS) plan.rounds = std::min(2 * plan.rounds, most_rounds);
   if (status & STATUS_COLORS) plan.colors = plan.known[COUNT_COLORS];
   if (status & STATUS_ISLANDS) plan.island_rounds = std::min(2 * plan.island_rounds, most_rounds);
-  if (status == STATUS_SUBSTEPS) raise_substeps(plan.substeps, plan.known[COUNT_LOAD_RATE], settings.step);
+  if ((status & STATUS_SUBSTEPS) && !(status & lacks_contacts))
+    raise_substeps(plan.substeps, plan.known[COUNT_LOAD_RATE], settings);
   if (plan.colors > COLOR_LIMIT && !(status & STATUS_PAIRS)) enlarge(plan.capacity_pairs);
   if (status & STATUS_NONFINITE) quarantine_from(plan.known[COUNT_NONFINITE], status);
   note_sorted();
@@ -307,12 +314,11 @@ void World::Implementation::enlarge(uint32_t pairs)
 }
 
 /* code: COUNT_NONFINITE, which holds the first body that is not finite, and the stage. An attempt that lacked contacts
- * says nothing of who is not finite after them; the repetition does, which has them. */
+ * or substeps says nothing of who is not finite after them; the repetition does, which has them. */
 void World::Implementation::quarantine_from(uint32_t code, uint32_t status)
 {
   const uint32_t first = code & (body_numbers - 1), stage = code / body_numbers;
-  const bool lacks_contacts = (status & (STATUS_PAIRS | STATUS_ROUNDS | STATUS_COLORS | STATUS_WAKE)) != 0;
-  if (lacks_contacts && stage > 0) return;
+  if ((status & (lacks_contacts | STATUS_SUBSTEPS)) && stage > 0) return;
   quarantine(first, stage);
   if (taken_out.size() > taken_one_by_one)
     for (const uint32_t body : bodies_not_finite(memory, special.awake))

@@ -19,7 +19,7 @@ SHARED void begin_step_item(GLOBAL uint *counts, uint i)
   counts[COUNT_UNCOLORED] = 0u;
   counts[COUNT_ROUNDS] = 0u;
   counts[COUNT_COLORS] = 0u;
-  counts[COUNT_STATUS] &= STATUS_DEADLOCK;
+  counts[COUNT_STATUS] = 0u;
   counts[COUNT_DIRECT_ISLANDS] = 0u;
   counts[COUNT_DIRECT_LEFT] = 0u;
   counts[COUNT_DIRECT_STALLED] = 0u;

@@ -4,8 +4,8 @@
 
 #include "shared/platform.h"
 
-/* A row of the script: which case, the first and the last entry of counts, whether all groups of the launch take part or
- * the first alone, whether all meet afterwards, and as many values as any launch has. */
+/* A row of the script: which case, the first and the last entry of counts, whether all groups of the launch take part
+ * or the first alone, whether all meet afterwards, and as many values as any launch has. */
 #define PHASE_RANGE_AT 1u
 #define PHASE_GROUPS_AT 3u
 #define PHASE_MEETING_AT 4u
@@ -15,8 +15,8 @@
 /* Rows of a script. With the local memory of any kernel, 32 KiB, they fit the 48 KiB that GPUs have. */
 #define MOST_PHASES 64u
 
-/* Where groups meet: how many arrived since the program was built, whether some did not come in time, and two places a
- * group for the test. */
+/* Where groups meet: how many arrived since the program was built, whether some did not come in time, and two places an
+ * item for the test. */
 #define ARRIVALS_COUNT 0u
 #define ARRIVALS_DEADLOCK 1u
 #define ARRIVALS_RING 2u

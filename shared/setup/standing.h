@@ -24,8 +24,14 @@
 #define BEARABLE_SINK R(2.0)
 /* From about 35 cubes of 1 m on, a column buckles at 1/240 s and 10 m/s^2: 35^3 * 10 / 240^2. */
 #define STIFFEST_STACK R(7.44)
-/* The fewest substeps of a step. */
+/* The fewest substeps of a step, and the rate that contacts of 60 Hz, the softest, are the stiffest of. */
 #define FEWEST_SUBSTEPS R(4.0)
+#define SOFTEST_RATE R(300.0)
+/* Above every rate that matters: what is beyond the range of floats needs the most substeps. */
+#define HIGHEST_RATE R(1e30)
+/* A world that allows no depth at all is judged by the depths that others allow. */
+#define USUAL_SLOP R(0.005)
+#define USUAL_SLOP_SHARE R(0.05)
 /* A contact stands if the square of the cosine between normal and gravity is at least this. */
 #define STANDS R(0.5)
 
@@ -90,8 +96,8 @@ SHARED real rate_needed(GLOBAL const Parameters *parameters, const standing_pair
 /* Rates that the fewest substeps have are not noted, so that few contacts meet at the maximum. */
 SHARED void note_rate(GLOBAL const Parameters *parameters, real rate, GLOBAL uint *counts)
 {
-  real fewest = FEWEST_SUBSTEPS / parameters->step;
-  if (rate > fewest * fewest && rate < R(1e30)) ATOMIC_MAX(counts + COUNT_LOAD_RATE, FLOAT_BITS(rate));
+  real fewest = minimum(FEWEST_SUBSTEPS / parameters->step, SOFTEST_RATE);
+  if (rate > fewest * fewest) ATOMIC_MAX(counts + COUNT_LOAD_RATE, FLOAT_BITS(minimum(rate, HIGHEST_RATE)));
 }
 
 /* standing_above: of the pass before, or of the last step. standing: is 0 before. */
@@ -119,8 +125,9 @@ SHARED void weigh_standing_item(GLOBAL const Parameters *parameters, GLOBAL cons
   real load = parameters->gravity_length * weight;
   if (!is_new) load = minimum(load, borne);
   real size = size_between(body_shape, contacts.a[i], contacts.b[i]);
-  real slop = parameters->slop;
-  if (size > R(0.0)) slop = minimum(slop, parameters->slop_share * size);
+  real slop = parameters->slop > R(0.0) ? parameters->slop : USUAL_SLOP;
+  real share = parameters->slop_share > R(0.0) ? parameters->slop_share : USUAL_SLOP_SHARE;
+  if (size > R(0.0)) slop = minimum(slop, share * size);
   note_rate(parameters, rate_needed(parameters, &p, load, layers, slop, size > R(0.0) ? size : R(0.5)), counts);
 }
 

@@ -293,6 +293,16 @@ TEST_CASE("heap: a step that changes the broadphase is made whole once there is 
                                   short_step(with(Solver::soft_step, Broadphase::automatic, true)), serial, 2,
                                   choose_as_for_a_device},
                                  3);
+  Placement as_for_a_device = serial;
+  as_for_a_device.broadphase_for = "cl";
+  const auto choose_as_for_a_cpu = [](World &world) {
+    world.place(serial);
+    CHECK(world.settings().broadphase == Broadphase::brute_force); /* which needs less room than trees */
+  };
+  check_fails_everywhere_in_step({load_scene("box-grid:nx=5,ny=4,nz=6"),
+                                  short_step(with(Solver::soft_step, Broadphase::automatic, true)), as_for_a_device, 2,
+                                  choose_as_for_a_cpu},
+                                 3);
 }
 
 /* What a broadphase keeps is in buffers that a new layout sizes anew. */

@@ -1,10 +1,10 @@
 #!/bin/sh
 # joined_on_oclgrind.sh TANDEM DIRECTORY MODE SCENE [OPTION...] - a run on serial and on Oclgrind, where launches are
-# joined: the same hash, far fewer launches, and no complaint of Oclgrind, which watches every access of every work-item.
+# joined: the same hash, far fewer launches, and no complaint of Oclgrind, which watches every access of every item.
 #
 #   together    one work-group
 #   automatic   what any device joins that calls itself a GPU, as Oclgrind does
-#   resident    three work-groups, which wait for each other; Oclgrind takes their barrier for a race, so it looks for none
+#   resident    three work-groups, which wait for each other; Oclgrind would take their barrier for a race
 #   alone       as `resident`, but one thread runs one group after the other, which the test at the start has to notice
 set -eu
 . "$(dirname "$0")/absent.sh"

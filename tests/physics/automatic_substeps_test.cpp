@@ -91,20 +91,73 @@ TEST_CASE("automatic substeps: a restored world and one that went back go on wit
   CHECK(restored.state_hash() == world.state_hash());
 }
 
+TEST_CASE("automatic substeps: bodies made after going back know nothing of those that stood in their places",
+          "[physics]")
+{
+  const Scene scene = column_of({1});
+  const auto cube = [&](double height, float mass) {
+    Body body;
+    body.shape = scene.bodies.back().shape;
+    body.position = {5, height, 0};
+    body.mass = mass;
+    return body;
+  };
+  World detour(scene, automatic(), {}), straight(scene, automatic(), {});
+  for (World *world : {&detour, &straight}) world->keep_states(20);
+  run(detour, 3);
+  run(straight, 3);
+  detour.create_bodies(std::vector<Body>{cube(0.5, 1), cube(1.5, 1000)});
+  run(detour, 6);
+  CHECK(detour.statistics().substeps > 4);
+  detour.go_back(6);
+  for (World *world : {&detour, &straight}) {
+    world->create_bodies(std::vector<Body>{cube(1.5, 1), cube(0.5, 1), cube(2.5, 1)});
+    run(*world, 3);
+  }
+  CHECK(detour.statistics().substeps == 4);
+  CHECK(detour.state_hash() == straight.state_hash());
+}
+
+TEST_CASE("automatic substeps: a world that allows no depth is judged by the usual one", "[physics]")
+{
+  for (const float slop_share : {0.05f, 0.0f}) {
+    Settings settings = automatic();
+    settings.slop = 0;
+    settings.slop_share = slop_share;
+    const Scene scene = column_of({1, 1000});
+    World world(scene, settings, {});
+    run(world, 10);
+    CHECK(world.statistics().substeps == 16);
+  }
+}
+
 TEST_CASE("automatic substeps: raised to what bears the rate, and halved after a second of calm", "[physics]")
 {
   SubstepChoice choice = first_choice(automatic());
-  const float step = 1.0f / 64;
-  raise_substeps(choice, bits_of(1000.0f * 1000.0f), step);
+  Settings settings = automatic();
+  settings.step = 1.0f / 64;
+  raise_substeps(choice, bits_of(1000.0f * 1000.0f), settings);
   CHECK(choice.now == 16); /* 1024 a second */
   CHECK(choice.of_cache == 4);
-  raise_substeps(choice, bits_of(1e20f), step);
+  raise_substeps(choice, bits_of(1e20f), settings);
   CHECK(choice.now == most_automatic_substeps);
-  for (int i = 0; i < 63; ++i) settle_substeps(choice, bits_of(1000.0f * 1000.0f), step);
+  for (int i = 0; i < 63; ++i) settle_substeps(choice, bits_of(1000.0f * 1000.0f), settings);
   CHECK(choice.now == 64);
-  settle_substeps(choice, bits_of(1000.0f * 1000.0f), step);
+  settle_substeps(choice, bits_of(1000.0f * 1000.0f), settings);
   CHECK(choice.now == 32);
   CHECK(choice.of_cache == 64);
+}
+
+TEST_CASE("automatic substeps: four bear less in short steps, whose contacts are softer than they could be",
+          "[physics]")
+{
+  Settings settings = automatic();
+  settings.step = 1.0f / 240;
+  SubstepChoice choice = first_choice(settings);
+  raise_substeps(choice, bits_of(299.0f * 299.0f), settings);
+  CHECK(choice.now == 4);
+  raise_substeps(choice, bits_of(301.0f * 301.0f), settings);
+  CHECK(choice.now == 8);
 }
 
 TEST_CASE("automatic substeps are refused to solvers that do not choose", "[physics]")

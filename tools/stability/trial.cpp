@@ -176,7 +176,11 @@ namespace {
 std::optional<Trial> documented_trial(const Case &which, Length length, const std::string &solver)
 {
   Trial trial = which.build(length);
-  if (!trial.documented_solver.empty() && solver == name_of(Settings{}.solver)) return trial;
+  if (!trial.documented_solver.empty() && solver == name_of(Settings{}.solver)) {
+    /* Only the default solver chooses its substeps. */
+    if (trial.settings.substeps == automatic_substeps) trial.settings.substeps = Settings{}.substeps;
+    return trial;
+  }
   if (!trial.documented) return std::nullopt;
   const Settings own = settings_for(parse_setting<Solver>(solver));
   trial.settings = *trial.documented;
@@ -236,7 +240,8 @@ std::string settings_text(const Settings &settings)
       text += fmt::format("{}{} {:.6g}", text.empty() ? "" : ", ", name, static_cast<double>(value));
   };
   add("dt", settings.step, defaults.step);
-  add("substeps", settings.substeps, defaults.substeps);
+  if (settings.substeps == automatic_substeps) text += text.empty() ? "substeps auto" : ", substeps auto";
+  else add("substeps", settings.substeps, defaults.substeps);
   add("iterations", settings.iterations, defaults.iterations);
   add("contact_hertz", settings.contact_hertz, defaults.contact_hertz);
   add("contact_damping_ratio", settings.contact_damping_ratio, defaults.contact_damping_ratio);

@@ -63,6 +63,8 @@ public:
   virtual void run_series(std::span<const BoundLaunch> series, void *counts);
   /* The work-groups of a launch that joins others, which wait for each other: those that the device runs together. */
   virtual uint32_t resident_groups() const { return 1; }
+  /* From now on, because some waited for others in vain. */
+  virtual void do_without_resident_groups() {}
   /* Runs a kernel of execution HOST, which accesses its buffers itself. Only the backend of host/pipeline/cpu_kernels.h
    * supports it. */
   virtual void run_cpu_kernel(const Launch &launch, Memory &memory);

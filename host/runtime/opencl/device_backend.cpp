@@ -143,6 +143,11 @@ public:
 
   uint32_t resident_groups() const override { return current_ ? current_->phases.resident_groups() : 1; }
 
+  void do_without_resident_groups() override
+  {
+    for (auto &[features, build] : builds_) build.phases.do_without_resident_groups();
+  }
+
   /* A profile is of kernels, so each has a launch of its own then. */
   void run_series(std::span<const BoundLaunch> series, void *counts) override
   {

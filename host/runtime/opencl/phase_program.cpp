@@ -44,13 +44,14 @@ void PhaseProgram::run(std::span<const BoundLaunch> series, void *counts)
   Script &script = script_with(words_);
   const uint32_t groups = groups_for(series);
   set_arguments(script, static_cast<uint32_t>(series.size()), counts);
-  if (resident_) set_meetings(script, static_cast<uint32_t>(series.size()), groups);
+  if (resident_) set_meetings(script);
   const size_t items = groups * group_size_;
   const cl_int code = code_of(faults::Site::launch, [&] {
     return clEnqueueNDRangeKernel(context_.queue(), script.kernel(), 1, nullptr, &items, &group_size_, 0, nullptr,
                                   nullptr);
   });
   if (code != CL_SUCCESS) fail("launch", code);
+  if (resident_) resident_->note_launch(groups, meetings_of(series.size()));
   clFlush(context_.queue());
 }
 
@@ -194,10 +195,10 @@ void PhaseProgram::set_arguments(Script &script, uint32_t phases, void *counts)
     set_handle(script, static_cast<cl_uint>(arguments_before_buffers + place), handles_[place]);
 }
 
-void PhaseProgram::set_meetings(Script &script, uint32_t phases, uint32_t groups)
+void PhaseProgram::set_meetings(Script &script)
 {
   const auto after_buffers = static_cast<cl_uint>(arguments_before_buffers + buffers_.size());
-  const uint32_t arrived = resident_->arrived_before(groups, meetings_of(phases));
+  const uint32_t arrived = resident_->arrived();
   const cl_mem arrivals = resident_->arrivals()();
   set(script, after_buffers + arrivals_argument, sizeof arrivals, &arrivals);
   set(script, after_buffers + arrived_argument, sizeof arrived, &arrived);

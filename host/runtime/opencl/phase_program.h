@@ -53,7 +53,7 @@ private:
   bool meet_after(std::span<const BoundLaunch> series, size_t phase) const;
   uint32_t meetings_of(size_t phases) const;
   void set_arguments(Script &script, uint32_t phases, void *counts);
-  void set_meetings(Script &script, uint32_t phases, uint32_t groups);
+  void set_meetings(Script &script);
   void set_handle(Script &script, cl_uint index, void *handle);
   void set(Script &script, cl_uint index, size_t bytes, const void *value);
 

@@ -20,8 +20,8 @@ struct PhaseKind {
 
 PhaseKind kind_of(const Launch &launch);
 
-/* The kernel in OpenCL C, which follows cl/phases.cl. Its arguments are the first three below, these buffers, among which
- * are all that the kinds take, and with resident groups what groups need to meet. */
+/* The kernel in OpenCL C, which follows cl/phases.cl. Its arguments are the first three below, these buffers, among
+ * which are all that the kinds take, and with resident groups what groups need to meet. */
 std::string phases_source(const std::vector<PhaseKind> &kinds, const std::vector<Buffer> &buffers,
                           bool has_resident_groups);
 

@@ -22,9 +22,9 @@ constexpr size_t least_gain = 4; /* fewer launches are not worth joining */
 /* One work-group takes less time than a launch for so many items: a step of 1,000 boxes takes an H200 0.95 ms with 256,
  * 0.85 with 512, and 0.84 with 1,024 and with 2,048 (docs/results/2026-11-26-h200-phases). */
 constexpr uint32_t items_of_phase = 1024;
-/* Resident groups take less time for so many: a step of 64,000 boxes takes 1.30 ms, 1.44 with 262,144 and 1.92 with
- * 16,384 (docs/results/2026-11-26-h200-resident-groups). */
-constexpr uint32_t items_of_resident_phase = 65536;
+/* Resident groups take less time for so many, about an item for each of theirs; where colours have more, launches are
+ * as fast (docs/results/2026-11-26-h200-resident-groups). */
+constexpr uint32_t items_of_resident_phase = 32768;
 /* More items are faster in all groups: a step of 1,000 boxes takes 0.68 ms with 128 or 256, 0.87 with 512. Tests let
  * nearly all phases take them. */
 constexpr uint32_t items_of_first_group = 256, items_of_first_group_in_tests = 8;
@@ -153,9 +153,18 @@ uint32_t Phases::most_items() const
   return may_have_resident_groups() ? items_of_resident_phase : items_of_phase;
 }
 
+void Phases::do_without_resident_groups()
+{
+  if (ahead_.valid()) ahead_.wait();
+  take_built();
+  deadlocked_ = true;
+  program_ = nullptr;
+  known_ = tried_ = {};
+}
+
 bool Phases::may_have_resident_groups() const
 {
-  if (is_pocl(context_)) return false; /* its threads take one group after the other */
+  if (deadlocked_ || is_pocl(context_)) return false; /* PoCL's threads take one group after the other */
   return mode_ == PhaseMode::resident || (mode_ == PhaseMode::automatic && has_fence_between_groups(context_));
 }
 

@@ -17,9 +17,9 @@
 namespace tandem::opencl {
 
 /* What TANDEM_PHASES in the environment says, for tests: "separate" never joins launches; "together" joins launches of
- * any number of items in one work-group, on every device, and waits for the program; "resident" does so with a group for
- * each compute unit, and all but the smallest phases take all of them. Without it, GPUs join those of few items. Other
- * words throw InputError. */
+ * any number of items in one work-group, on every device, and waits for the program; "resident" does so with a group
+ * for each compute unit, and all but the smallest phases take all of them. Without it, GPUs join those of few items.
+ * Other words throw InputError. */
 enum class PhaseMode { automatic, separate, together, resident };
 PhaseMode phase_mode_of_tests();
 
@@ -38,6 +38,8 @@ public:
 
   /* How many work-groups take part in a launch that joins others, at most. */
   uint32_t resident_groups() const { return program_ ? program_->resident_groups() : 1; }
+
+  void do_without_resident_groups();
 
   /* Builds for all kinds that have occurred, now. Throws DeviceError or BuildError, and then keeps what it had. */
   void build();
@@ -72,6 +74,7 @@ private:
   double share_of_many_items_ = 0; /* of the launches of late */
   size_t missed_ = 0;              /* launches since the last build, of series with kinds that were not tried */
   bool looked_ = false;            /* in the cache of programs, since then */
+  bool deadlocked_ = false;
   bool failed_ = false;            /* the last build in the background */
   std::unique_ptr<PhaseProgram> program_;
   std::future<std::unique_ptr<PhaseProgram>> ahead_; /* the last member, because its thread uses the others */

@@ -21,8 +21,10 @@ public:
   /* How many run together: at least one. */
   uint32_t count() const { return count_; }
   const cl::Buffer &arrivals() const { return arrivals_; }
-  /* How many groups will have arrived before a launch, in which all of `groups` groups meet so often. */
-  uint32_t arrived_before(uint32_t groups, uint32_t meetings);
+  /* How many groups have arrived when all launches so far have ended. */
+  uint32_t arrived() const { return arrived_; }
+  /* After a launch, in which all of `groups` groups meet so often. */
+  void note_launch(uint32_t groups, uint32_t meetings) { arrived_ += groups * meetings; }
 
 private:
   bool run_together(const DeviceContext &context, const cl::Kernel &kernel, size_t buffers, size_t group_size,

@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include <tandem/compare.h>
+#include <tandem/shapes.h>
 #include <tandem/world.h>
 
 #include "host/pipeline/broadphases/choice.h"
@@ -275,4 +276,30 @@ TEST_CASE("backends that would choose differently are compared with one choice")
   const std::vector<std::byte> snapshot = World(spheres_on_floor(100), {}, {"serial", {}}).save();
   request.snapshot = snapshot;
   CHECK(compare_backends(spheres_on_floor(100), request).broadphase == Broadphase::brute_force);
+}
+
+TEST_CASE("auto: queries after a change of placement find what they found before it")
+{
+  Scene scene;
+  scene.shapes = {half_space_shape(), sphere_shape(0.4f)};
+  scene.bodies.resize(1);
+  scene.bodies[0].type = BodyType::fixed;
+  for (int k = 0; k < 99; ++k) {
+    Body body;
+    body.shape = 1;
+    body.position = {0.81 * (k % 12), 0.4, 0.81 * (k / 12)};
+    scene.bodies.push_back(body);
+  }
+  Placement as_for_a_device{"serial", {}, false};
+  as_for_a_device.broadphase_for = "cl";
+  World world(scene, {}, as_for_a_device);
+  world.step();
+  REQUIRE(world.settings().broadphase == Broadphase::brute_force);
+  const std::vector<Ray> down = {{{0.1, 5, 0.1}, {0, -9, 0}, 1, {}}};
+  const auto before = world.cast_rays(down).at(0);
+  REQUIRE(before.body == 1);
+  world.place({"serial", {}, false});
+  const auto after = world.cast_rays(down).at(0);
+  CHECK(after.body == before.body);
+  CHECK(after.fraction == before.fraction);
 }

@@ -270,12 +270,11 @@ TEST_CASE("hostile numbers: what is not 0 but rounds to it is refused where 0 st
 TEST_CASE("hostile numbers: a ball rests on a strip of 20 km by 1 cm", "[command]")
 {
   const Scratch scratch;
-  write(
-      scratch.file("strip.json"),
-      R"({"tandem_scene":1,"shapes":[{"type":"mesh","vertices":[[-10000,0,-0.005],[-10000,0,0.005],[10000,0,0.005],)"
-      R"([10000,0,-0.005]],)"
-      R"("triangles":[[0,1,2],[0,2,3]]},{"type":"sphere","radius":0.5}],"bodies":[{"motion":"fixed","shape":0},)"
-      R"({"shape":1,"position":[100,0.5,0]}]})");
+  write(scratch.file("strip.json"),
+        R"({"tandem_scene":1,"shapes":[{"type":"mesh","vertices":[[-10000,0,-0.005],[-10000,0,0.005],[10000,0,0.005],)"
+        R"([10000,0,-0.005]],)"
+        R"("triangles":[[0,1,2],[0,2,3]]},{"type":"sphere","radius":0.5}],"bodies":[{"motion":"fixed","shape":0},)"
+        R"({"shape":1,"position":[100,0.5,0]}]})");
   const Json json = json_of("run " + scratch.file("strip.json") + " --steps 10 --on serial");
   CHECK(json["contacts"].get<int>() > 0);
 }
