@@ -61,7 +61,8 @@ constexpr uint32_t items_per_task = 128, items_per_part = 32;
 /* A series whose largest launch has fewer is done sooner by one thread than others come: 100 boxes in 0.26 ms, and in
  * 0.45 by twelve. */
 constexpr uint32_t items_worth_a_region = 1024;
-constexpr size_t launches_at_once = 1024; /* a whole step */
+constexpr size_t launches_at_once = 512; /* a whole step of most scenes */
+constexpr size_t arguments_of_usual_kernels = 16;
 
 /* The table for one item at a time. Width 1 uses the plain one, with which parity tests compare the others. */
 Width scalar_width([[maybe_unused]] const Options &options)
@@ -337,7 +338,9 @@ private:
     const size_t granted = settle_threads();
     if (arena_) return;
     const auto threads = static_cast<uint32_t>(std::min<size_t>(threads_, granted));
-    region_.emplace(threads); /* first, because the arena says that both are there */
+    arguments_.reserve(launches_at_once * arguments_of_usual_kernels);
+    first_argument_.reserve(launches_at_once);
+    region_.emplace(threads, launches_at_once); /* first, because the arena says that both are there */
     arena_.emplace(static_cast<int>(threads));
   }
 

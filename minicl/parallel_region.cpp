@@ -26,17 +26,24 @@ void pause_briefly()
 
 } // namespace
 
-ParallelRegion::ParallelRegion(uint32_t most_threads) : shares_(most_threads) {}
+ParallelRegion::ParallelRegion(uint32_t most_threads, size_t usual_launches) : shares_(most_threads)
+{
+  make_room(usual_launches);
+}
+
+void ParallelRegion::make_room(size_t launches)
+{
+  if (launches <= room_) return;
+  phase_ = std::make_unique<Phase[]>(launches);
+  room_ = launches;
+}
 
 void ParallelRegion::begin(LaunchesOfRegion &launches, uint32_t threads)
 {
   threads_ = std::clamp<uint32_t>(threads, 1, static_cast<uint32_t>(shares_.size()));
   launches_ = &launches;
   phases_ = launches.count();
-  if (phases_ > room_) {
-    phase_ = std::make_unique<Phase[]>(phases_);
-    room_ = phases_;
-  }
+  make_room(phases_);
   for (size_t launch = 0; launch < phases_; ++launch) {
     phase_[launch].next.store(0, std::memory_order_relaxed);
     phase_[launch].done.store(0, std::memory_order_relaxed);

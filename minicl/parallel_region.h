@@ -34,7 +34,8 @@ public:
 
 class ParallelRegion {
 public:
-  explicit ParallelRegion(uint32_t most_threads);
+  /* Series of at most so many launches allocate nothing. */
+  ParallelRegion(uint32_t most_threads, size_t usual_launches);
 
   /* Runs small launches at once, up to the first that several threads share. `threads` is limited to the most. */
   void begin(LaunchesOfRegion &launches, uint32_t threads);
@@ -55,6 +56,7 @@ private:
     std::atomic<size_t> taken = 0;
   };
 
+  void make_room(size_t launches);
   void open_after(size_t launch);
   uint32_t parts_of(const LaunchesOfRegion::Range &range) const;
   void run_part(size_t launch, uint32_t part);

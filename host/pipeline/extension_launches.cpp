@@ -153,8 +153,7 @@ void StepLaunches::run_of_module(Kernel kernel, const Values &values, const Slot
     const bool is_slot = argument.kind == Argument::Kind::slot;
     const Buffer buffer = is_slot ? slots.at(slot++) : argument.buffer;
     if (is_slot) check_slot(row, argument, buffer, most, launcher_);
-    if (holds_hits(buffer))
-      check_has_hits(row, buffer, hits_needed(row, plan_), plan_, launcher_);
+    if (holds_hits(buffer)) check_has_hits(row, buffer, hits_needed(row, plan_), plan_, launcher_);
     else check_is_filled(row, buffer, launcher_);
     if (argument.access != Access::in) check_may_write(row, buffer, point);
   }

@@ -180,7 +180,8 @@ void validate(const Settings &settings)
   if (settings.substeps != automatic_substeps) check_count("substeps", settings.substeps);
   check_count("iterations", settings.iterations);
   const uint32_t substeps = settings.substeps == automatic_substeps ? most_automatic_substeps : settings.substeps;
-  if (settings.step / static_cast<float>(substeps) < 1e-9f)
+  const float parts = substeps;
+  if (settings.step / parts < 1e-9f)
     throw InputError(
         fmt::format("time step {} s in {} substeps: a substep must be at least 1e-9 s", settings.step, substeps));
   check_choice(settings.solver);

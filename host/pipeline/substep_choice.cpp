@@ -62,7 +62,8 @@ void settle_substeps(SubstepChoice &choice, uint32_t load_rate, const Settings &
   const uint32_t half = choice.now / 2;
   const bool is_calm = half >= fewest_automatic_substeps && load_rate <= highest_load_rate_of(settings, half);
   choice.calm_steps = is_calm ? choice.calm_steps + 1 : 0;
-  if (static_cast<float>(choice.calm_steps) * settings.step < 1) return;
+  const float calm_steps = choice.calm_steps;
+  if (calm_steps * settings.step < 1) return;
   choice.now = half;
   choice.calm_steps = 0;
 }

@@ -9,6 +9,20 @@
 #include "host/runtime/interface/debug.h"
 
 namespace tandem {
+namespace {
+
+/* Of any kernel of the pipeline. */
+size_t most_arguments()
+{
+  static const size_t most = [] {
+    size_t arguments = 0;
+    for (size_t k = 0; k < kernel_count; ++k) arguments = std::max(arguments, row_of(kernel_at(k)).arguments.size());
+    return arguments;
+  }();
+  return most;
+}
+
+} // namespace
 
 void PlacedLauncher::note_written(Buffer buffer)
 {
@@ -79,12 +93,21 @@ bool PlacedLauncher::joins_series(const Launch &launch, const Backend &backend) 
   return row_of(launch.kernel).execution != Execution::host && known_[launch.last] - known_[launch.first] <= most;
 }
 
+/* A series may be longer in a later step, which must allocate nothing. */
+void PlacedLauncher::make_room(size_t launches)
+{
+  if (launches <= collected_.size()) return;
+  const size_t before = collected_.size();
+  collected_.resize(launches);
+  for (size_t i = before; i < launches; ++i) collected_[i].arguments.reserve(most_arguments());
+}
+
 /* What other backends have to do first is done before buffers move. */
 void PlacedLauncher::collect(const Launch &launch, Backend &backend)
 {
   if (collecting_backend_ != &backend) run_collected();
   collecting_backend_ = &backend;
-  if (collected_count_ == collected_.size()) collected_.emplace_back();
+  make_room(backend.most_launches_of_series());
   BoundLaunch &bound = collected_[collected_count_];
   bound.launch = launch;
   bound.items = known_[launch.last] - known_[launch.first];

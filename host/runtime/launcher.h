@@ -64,6 +64,7 @@ private:
   Access access_of(Buffer buffer, Access access) const;
   void bind(const Launch &launch, Storage &storage, std::vector<BoundArgument> &bound);
   bool joins_series(const Launch &launch, const Backend &backend) const;
+  void make_room(size_t launches);
   void collect(const Launch &launch, Backend &backend);
   void run_collected();
 

@@ -147,8 +147,8 @@ void World::Implementation::upload_scene()
 Parameters World::Implementation::parameters_now() const
 {
   Parameters parameters = parameters_of(scene, settings_in_use, special.features, special.median);
-  if (plan.substeps.automatic)
-    parameters.warm_start_scale = static_cast<float>(plan.substeps.of_cache) / static_cast<float>(plan.substeps.now);
+  const float before = plan.substeps.of_cache, now = plan.substeps.now;
+  if (plan.substeps.automatic) parameters.warm_start_scale = before / now;
   return parameters;
 }
 

@@ -99,7 +99,7 @@ TEST_CASE("a parallel region runs a series as one thread would, whoever comes")
     for (const uint32_t present : {1u, 2u, 8u}) {
       if (present > room) continue;
       CAPTURE(room, present);
-      ParallelRegion region(room);
+      ParallelRegion region(room, 100);
       for (uint64_t seed = 1; seed <= 6; ++seed) {
         const size_t launches = 50 * seed;
         Chain chain(launches, seed);
@@ -120,7 +120,7 @@ TEST_CASE("a parallel region runs a series as one thread would, whoever comes")
 
 TEST_CASE("a parallel region of no launches, and one of small ones, has ended when it begins")
 {
-  ParallelRegion region(4);
+  ParallelRegion region(4, 1);
   Chain none(0, 1);
   region.begin(none, 4);
   REQUIRE(region.has_ended());

@@ -28,5 +28,6 @@ TEST_CASE("parity on CPU: automatic substeps")
 
 TEST_CASE("parity on OpenCL: automatic substeps", "[opencl]")
 {
+  require_pocl();
   for (const char *name : {"mass-ratio", "mixed:n=60"}) require_same_choice(name, {"serial", "cl:pocl"}, 6);
 }

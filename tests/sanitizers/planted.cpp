@@ -23,7 +23,9 @@ namespace {
 /* 64 bodies: whole vectors at every width, so that none is left to the scalar kernels. */
 void step_with(const std::string &name, const std::string &backend, size_t missing)
 {
-  World world(load_scene("box-grid:nx=7,ny=3,nz=3"), {}, Placement{backend, {}, false});
+  Settings settings;
+  settings.broadphase = Broadphase::grid; /* which has the buffers that are named */
+  World world(load_scene("box-grid:nx=7,ny=3,nz=3"), settings, Placement{backend, {}, false});
   world.step(); /* which makes room for all buffers */
   const Buffer buffer = buffer_named(name);
   world.memory().resize(buffer, world.memory().bytes(buffer) - missing * size_of(row_of(buffer).element));
