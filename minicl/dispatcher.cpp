@@ -132,6 +132,9 @@ public:
       for (uint32_t lanes = options.lanes; lanes >= 4; lanes /= 2)
         lanes_.push_back({lanes, ranges_of(lanes_width(lanes))});
     want_threads(options.threads);
+    if (threads_ == 1) return;
+    arguments_.reserve(launches_at_once * arguments_of_usual_kernels);
+    first_argument_.reserve(launches_at_once);
   }
 
   const std::string &name() const override { return name_; }
@@ -338,8 +341,6 @@ private:
     const size_t granted = settle_threads();
     if (arena_) return;
     const auto threads = static_cast<uint32_t>(std::min<size_t>(threads_, granted));
-    arguments_.reserve(launches_at_once * arguments_of_usual_kernels);
-    first_argument_.reserve(launches_at_once);
     region_.emplace(threads, launches_at_once); /* first, because the arena says that both are there */
     arena_.emplace(static_cast<int>(threads));
   }
