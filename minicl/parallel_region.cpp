@@ -93,9 +93,7 @@ void ParallelRegion::run_part(size_t launch, uint32_t part)
 void ParallelRegion::run_any_parts(size_t launch)
 {
   Phase &phase = phase_[launch];
-  const uint32_t parts =
-      phase.parts; /* the phase ends with the last part, and its room may be taken by another series */
-  for (uint32_t part = phase.next.fetch_add(1, std::memory_order_relaxed); part < parts;
+  for (uint32_t part = phase.next.fetch_add(1, std::memory_order_relaxed); part < phase.parts;
        part = phase.next.fetch_add(1, std::memory_order_relaxed))
     run_part(launch, part);
 }
@@ -111,8 +109,7 @@ void ParallelRegion::run_share(size_t launch, uint32_t thread)
 /* A thread that has not come, or that the system does not run, is helped. */
 void ParallelRegion::run_shares_left(size_t launch)
 {
-  const uint32_t parts = phase_[launch].parts;
-  for (uint32_t thread = 0; thread < parts; ++thread) run_share(launch, thread);
+  for (uint32_t thread = 0; thread < phase_[launch].parts; ++thread) run_share(launch, thread);
 }
 
 void ParallelRegion::wait_for_end_of(size_t launch)

@@ -24,6 +24,10 @@
 namespace tandem {
 namespace {
 
+/* So many layers of a stack are known after the first step of a world. The last pass writes body_standing, so there is
+ * an odd number of them. */
+constexpr uint32_t passes_of_first_step = 129;
+
 class Step : public StepLaunches {
 public:
   using StepLaunches::StepLaunches;
@@ -143,11 +147,10 @@ private:
   }
 
   /* A step carries what stands on a body down by one layer. The first step of a world carries it down through stacks,
-   * because those that are too tall would have begun to fall by the time that all is known. The last pass writes
-   * body_standing, so there is an odd number of them. */
+   * because those that are too tall would have begun to fall by the time that all is known. */
   void weigh_standing()
   {
-    const uint32_t passes = plan().substeps.starts ? 129 : 1;
+    const uint32_t passes = plan().substeps.starts ? passes_of_first_step : 1;
     Buffer from = Buffer::cached_standing, to = Buffer::body_standing, other = Buffer::body_standing_other;
     for (uint32_t pass = 0; pass < passes; ++pass) {
       run_range(Kernel::fill, COUNT_ZERO, COUNT_HALVES, {0}, {to});

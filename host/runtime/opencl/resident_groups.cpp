@@ -24,6 +24,12 @@ std::vector<uint32_t> script_of_test()
   return script;
 }
 
+cl::Buffer buffer_with(const DeviceContext &context, std::vector<uint32_t> words)
+{
+  return cl::Buffer(context.context, CL_MEM_READ_WRITE | CL_MEM_COPY_HOST_PTR, words.size() * sizeof words[0],
+                    words.data());
+}
+
 uint32_t number_of(uint32_t place) { return 1000 * (place + 1); }
 
 /* The ring has a place for each item of each group. The test passes this buffer for all others as well, among them the
@@ -59,9 +65,7 @@ ResidentGroups::ResidentGroups(const DeviceContext &context, const cl::Kernel &k
   const uint32_t units = context.device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
   for (int attempt = 0; attempt < 2 && count_ == 1 && units > 1; ++attempt) /* the device may be busy with other work */
     if (run_together(context, kernel, buffers, group_size, units)) count_ = units;
-  std::vector<uint32_t> words(ARRIVALS_RING, 0);
-  arrivals_ = cl::Buffer(context.context, CL_MEM_READ_WRITE | CL_MEM_COPY_HOST_PTR, words.size() * sizeof words[0],
-                         words.data());
+  arrivals_ = buffer_with(context, std::vector<uint32_t>(ARRIVALS_RING, 0));
 }
 
 /* It has a queue of its own, because a world may be running while a program is built for it. */
@@ -69,12 +73,8 @@ bool ResidentGroups::run_together(const DeviceContext &context, const cl::Kernel
                                   size_t group_size, uint32_t groups)
 try {
   const auto places = static_cast<uint32_t>(groups * group_size);
-  std::vector<uint32_t> script = script_of_test(), words = words_before_test(places);
-  const auto with = [&](std::vector<uint32_t> &content) {
-    return cl::Buffer(context.context, CL_MEM_READ_WRITE | CL_MEM_COPY_HOST_PTR, content.size() * sizeof content[0],
-                      content.data());
-  };
-  const cl::Buffer rows = with(script), all_others = with(words);
+  std::vector<uint32_t> words = words_before_test(places);
+  const cl::Buffer rows = buffer_with(context, script_of_test()), all_others = buffer_with(context, words);
   cl::Kernel test = kernel;
   const auto after_buffers = static_cast<cl_uint>(arguments_before_buffers + buffers);
   for (cl_uint argument = counts_argument; argument <= after_buffers + arrivals_argument; ++argument)
