@@ -28,6 +28,7 @@
     words[word] = script[word];
 
 #define LARGER(a, b) ((a) > (b) ? (a) : (b))
+#define NOT_INLINE __attribute__((noinline))
 
 #ifndef RESIDENT_GROUPS
 
@@ -43,7 +44,8 @@
   END_GROUP;       \
   }
 
-#define FOR_EACH_IN_PHASE(i) for (uint i = first + (uint)get_local_id(0); i < last; i += (uint)get_local_size(0))
+#define FIRST_OF_PHASE (first + (uint)get_local_id(0))
+#define STRIDE_OF_PHASE ((uint)get_local_size(0))
 /* The groups of a GROUP kernel follow one another in the only work-group. */
 #define FOR_EACH_GROUP(group) \
   for (uint group = 0, groups = units_of(last - first, TILE); group < groups; ++group, END_GROUP)
@@ -126,9 +128,8 @@ static inline uint place_among_groups(void)
   }                                                                                                         \
   if (deadlock[0] && get_local_id(0) == 0) atomic_or(range + COUNT_STATUS, STATUS_DEADLOCK);
 
-#define FOR_EACH_IN_PHASE(i)                                                                      \
-  for (uint i = first + (row[PHASE_GROUPS_AT] ? place_among_groups() : (uint)get_local_id(0)); i < last; \
-       i += (row[PHASE_GROUPS_AT] ? (uint)get_global_size(0) : (uint)get_local_size(0)))
+#define FIRST_OF_PHASE (first + (row[PHASE_GROUPS_AT] ? place_among_groups() : (uint)get_local_id(0)))
+#define STRIDE_OF_PHASE (row[PHASE_GROUPS_AT] ? (uint)get_global_size(0) : (uint)get_local_size(0))
 /* The groups of a GROUP kernel follow one another in each work-group. */
 #define FOR_EACH_GROUP(group)                                                                            \
   for (uint group = (uint)get_group_id(0), groups = units_of(last - first, TILE); group < groups; \

@@ -135,7 +135,7 @@ DeviceContext::DeviceContext(const Candidate &candidate) : info(candidate.info),
   const minicl::ExactFloatingPoint environment;
   try {
     fail_where_a_test_wants(faults::Site::allocation, "clCreateContext");
-    context = cl::Context(device);
+    context = candidate.context() ? candidate.context : cl::Context(device);
   } catch (const cl::Error &error) {
     fail_to_open(info, error);
   }

@@ -30,7 +30,7 @@ std::string title(const DeviceInfo &info)
 }
 
 /* The reason why the device may not be used, or empty. */
-std::string refusal(const Candidate &candidate)
+std::string refusal(Candidate &candidate)
 {
   if (!candidate.unusable.empty()) return candidate.unusable;
   const std::string difference = self_test(candidate);
@@ -94,7 +94,7 @@ Candidate choose_device(const std::string &text, const std::string &choice, bool
                [&](const Candidate &candidate) { return matches(candidate.info, choice); });
   if (matching.empty()) refuse_unknown(text, choice, all);
   if (choice.empty()) put_best_first(matching);
-  for (const Candidate &candidate : matching)
+  for (Candidate &candidate : matching)
     if (refusal(candidate).empty()) return candidate;
   if (allow_inexact)
     for (const Candidate &candidate : matching)
@@ -109,7 +109,7 @@ Candidate choose_device(const std::string &text, const std::string &choice, bool
 std::vector<DeviceInfo> list_devices()
 {
   std::vector<DeviceInfo> devices;
-  for (const Candidate &candidate : find_candidates()) {
+  for (Candidate candidate : find_candidates()) {
     DeviceInfo info = candidate.info;
     info.reason = refusal(candidate);
     info.supported = info.reason.empty();

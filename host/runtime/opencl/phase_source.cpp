@@ -61,15 +61,53 @@ std::string with_arguments(std::string_view call, const std::vector<std::string>
 /* A buffer of a module may have any name. */
 std::string name_in_source(Buffer buffer) { return std::string("buffer_") + row_of(buffer).name; }
 
-std::string case_of(const PhaseKind &kind)
+/* Buffers are passed as they are, and values as the words of the phase's row. */
+std::vector<std::string> arguments_of(const PhaseKind &kind)
 {
   std::vector<std::string> arguments;
   uint32_t value = PHASE_VALUES_AT;
   for (const std::optional<Buffer> &buffer : buffers_of(kind))
     arguments.push_back(buffer ? name_in_source(*buffer) : fmt::format("row[{}]", value++));
-  const bool is_group = row_of(kind.kernel).execution == Execution::group;
-  return fmt::format("{} {}; break;\n", is_group ? "FOR_EACH_GROUP(group)" : "FOR_EACH_IN_PHASE(i)",
-                     with_arguments(entry_of(kind.kernel).call, arguments));
+  return arguments;
+}
+
+bool is_group(Kernel kernel) { return row_of(kernel).execution == Execution::group; }
+
+/* An item kernel is a function that all cases of it call. Inlined into each, it took an H200's compiler a quarter to
+ * two thirds longer, and the steps were no faster (docs/results/2026-11-26-h200-starts). */
+std::string function_of(Kernel kernel)
+{
+  std::vector<std::string> names;
+  std::string parameters;
+  for (const Argument &argument : row_of(kernel).arguments) {
+    names.push_back(fmt::format("argument_{}", names.size()));
+    const char *type = argument.kind == Argument::Kind::value ? "uint" : "__global uint *";
+    parameters += fmt::format("{} {}, ", type, names.back());
+  }
+  return fmt::format("static NOT_INLINE void phase_{}({}uint first, uint last, uint stride)\n"
+                     "{{\n  for (uint i = first; i < last; i += stride) {};\n}}\n",
+                     row_of(kernel).name, parameters, with_arguments(entry_of(kernel).call, names));
+}
+
+/* Of a group kernel, which needs the local memory of the launch, a case holds the whole. */
+std::string case_of(const PhaseKind &kind)
+{
+  const std::vector<std::string> arguments = arguments_of(kind);
+  if (is_group(kind.kernel))
+    return fmt::format("FOR_EACH_GROUP(group) {}; break;\n", with_arguments(entry_of(kind.kernel).call, arguments));
+  std::string call = fmt::format("phase_{}(", row_of(kind.kernel).name);
+  for (const std::string &argument : arguments) call += argument + ", ";
+  return call + "FIRST_OF_PHASE, last, STRIDE_OF_PHASE); break;\n";
+}
+
+std::string functions_of(const std::vector<PhaseKind> &kinds)
+{
+  std::set<Kernel> kernels;
+  for (const PhaseKind &kind : kinds)
+    if (!is_group(kind.kernel)) kernels.insert(kind.kernel);
+  std::string functions;
+  for (const Kernel kernel : kernels) functions += function_of(kernel);
+  return functions;
 }
 
 /* The largest local memory of these kinds. */
@@ -107,7 +145,7 @@ std::vector<PhaseKind> those_that_fit(const std::set<PhaseKind> &kinds, const De
   std::vector<PhaseKind> fitting;
   for (const PhaseKind &kind : kinds) {
     const KernelRow &row = row_of(kind.kernel);
-    if ((is_pocl(context) && row.execution == Execution::group) || (row.feature & long_to_compile)) continue;
+    if ((is_pocl(context) && is_group(kind.kernel)) || (row.feature & long_to_compile)) continue;
     fitting.push_back(kind);
     if (buffers_of(fitting).size() > most_buffers) fitting.pop_back();
   }
@@ -126,9 +164,9 @@ PhaseKind kind_of(const Launch &launch) { return {launch.kernel, {launch.slots.b
 std::string phases_source(const std::vector<PhaseKind> &kinds, const std::vector<Buffer> &buffers,
                           bool has_resident_groups)
 {
-  std::string source =
-      fmt::format("__kernel void run_phases(__global const uint *script, uint phases, __global {}uint *range",
-                  has_resident_groups ? "" : "const ");
+  std::string source = functions_of(kinds);
+  source += fmt::format("__kernel void run_phases(__global const uint *script, uint phases, __global {}uint *range",
+                        has_resident_groups ? "" : "const ");
   for (const Buffer buffer : buffers) source += fmt::format(",\n    __global uint *{}", name_in_source(buffer));
   if (has_resident_groups) source += ",\n    __global uint *arrivals, uint arrived, uint patience";
   source += fmt::format(")\n{{\n  __local uint local_memory[{}];\n  BEGIN_PHASES\n", local_words_of(kinds));

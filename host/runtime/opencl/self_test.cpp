@@ -202,10 +202,12 @@ struct Verdict {
   bool is_final;
 };
 
-Verdict tested(const Candidate &candidate)
+Verdict tested(Candidate &candidate)
 {
   try {
-    return {self_test(DeviceContext(candidate), input_count(candidate), embedded_program("self_test")), true};
+    const DeviceContext context(candidate);
+    candidate.context = context.context;
+    return {self_test(context, input_count(candidate), embedded_program("self_test")), true};
   } catch (const cl::Error &error) {
     return {fmt::format("{} failed with {}", error.what(), error_name(error.err())), false};
   } catch (const std::exception &error) {
@@ -262,7 +264,7 @@ std::string self_test(const DeviceContext &context, uint32_t count, const Embedd
   return difference(run_here(inputs, count), run_there(context, inputs, count, program), count);
 }
 
-std::string self_test(const Candidate &candidate)
+std::string self_test(Candidate &candidate)
 {
   static std::mutex mutex;
   static std::map<cl_device_id, std::string> verdicts;

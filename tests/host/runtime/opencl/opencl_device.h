@@ -14,7 +14,7 @@ inline const opencl::Candidate *find_test_device()
 {
   static const std::vector<opencl::Candidate> candidates = opencl::find_candidates();
   const char *wanted = std::getenv("TANDEM_TEST_DEVICE");
-  const auto found = std::find_if(candidates.begin(), candidates.end(), [&](const opencl::Candidate &candidate) {
+  const auto found = std::find_if(candidates.begin(), candidates.end(), [&](opencl::Candidate candidate) {
     return (!wanted || candidate.info.platform_name == wanted) && candidate.unusable.empty() &&
            opencl::self_test(candidate).empty();
   });

@@ -60,16 +60,20 @@ TEST_CASE("a program of phases has a case for each kind, with the buffers of its
   const std::string text =
       opencl::phases_source({{Kernel::fill, {Buffer::primitive_a}},
                              {Kernel::copy, {Buffer::primitive_a, Buffer::primitive_b}},
+                             {Kernel::copy, {Buffer::primitive_b, Buffer::primitive_a}},
                              {Kernel::scan_in_order, {Buffer::primitive_b, Buffer::primitive_a, Buffer::scan_sums}}},
                             {Buffer::counts, Buffer::primitive_a, Buffer::primitive_b, Buffer::scan_sums}, false);
   const auto has = [&](const std::string &part) {
     INFO(text);
     REQUIRE(text.find(part) != text.npos);
   };
-  has("case 0: FOR_EACH_IN_PHASE(i) fill_item((__global uint *)buffer_primitive_a, row[5], i); break;");
-  has("case 1: FOR_EACH_IN_PHASE(i) copy_item((__global const uint *)buffer_primitive_a, (__global uint "
-      "*)buffer_primitive_b, i);");
-  has("case 2: FOR_EACH_GROUP(group) scan_in_order_group((__global const uint *)buffer_counts, (__global const uint "
+  has("case 0: phase_fill(buffer_primitive_a, row[5], FIRST_OF_PHASE, last, STRIDE_OF_PHASE); break;");
+  has("case 1: phase_copy(buffer_primitive_a, buffer_primitive_b, FIRST_OF_PHASE, last, STRIDE_OF_PHASE); break;");
+  has("case 2: phase_copy(buffer_primitive_b, buffer_primitive_a, FIRST_OF_PHASE, last, STRIDE_OF_PHASE); break;");
+  const size_t copy = text.find("void phase_copy(");
+  REQUIRE(copy != text.npos);
+  REQUIRE(text.find("void phase_copy(", copy + 1) == text.npos); /* one function for both cases */
+  has("case 3: FOR_EACH_GROUP(group) scan_in_order_group((__global const uint *)buffer_counts, (__global const uint "
       "*)buffer_primitive_b, (__global uint *)buffer_primitive_a, (__global uint *)buffer_scan_sums, row[5], row[6], "
       "row[7], row[8], local_memory, group);");
   has("__local uint local_memory[LARGER(SCAN_LOCAL_WORDS, 1)]");
