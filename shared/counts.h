@@ -63,6 +63,8 @@ enum {
   COUNT_CELLS,
   COUNT_CELLS_PLUS_ONE,
   CAPACITY_CELLS,
+  CAPACITY_POINTS,      /* 4, or 1 where only balls touch: planes of the contact points of pairs (point_rows.h) */
+  CAPACITY_CANDIDATES,  /* of the broadphase trees: capacity for pairs of fat boxes */
   COUNT_SHARES,         /* four times the bodies: work-items of the windowed sweep; set by the host */
   COUNT_SWEEP_BLOCKS,   /* groups of it, of SWEEP_BLOCK bodies each */
   COUNT_SWEEP_ITEMS,    /* TILE times as many: a group a block */
@@ -115,14 +117,15 @@ enum {
 };
 
 enum {
-  STATUS_PAIRS = 1,     /* more pairs than capacity: grow and run the step again */
-  STATUS_ROUNDS = 2,    /* colouring needs more rounds */
-  STATUS_COLORS = 4,    /* more colours than were launched, or passes of overflow constraints where there are none */
-  STATUS_NONFINITE = 8, /* a body is not finite: quarantine it and run the step again */
-  STATUS_ISLANDS = 16,  /* islands need more rounds */
-  STATUS_WAKE = 32,     /* sleeping bodies were touched: wake their islands and run the step again */
-  STATUS_SUBSTEPS = 64, /* loads and stacks need more substeps */
-  STATUS_DEADLOCK = 128 /* work-groups of a launch waited for each other in vain (cl/phases.cl) */
+  STATUS_PAIRS = 1,       /* more pairs than capacity: grow and run the step again */
+  STATUS_ROUNDS = 2,      /* colouring needs more rounds */
+  STATUS_COLORS = 4,      /* more colours than were launched, or passes of overflow constraints where there are none */
+  STATUS_NONFINITE = 8,   /* a body is not finite: quarantine it and run the step again */
+  STATUS_ISLANDS = 16,    /* islands need more rounds */
+  STATUS_WAKE = 32,       /* sleeping bodies were touched: wake their islands and run the step again */
+  STATUS_SUBSTEPS = 64,   /* loads and stacks need more substeps */
+  STATUS_DEADLOCK = 128,  /* work-groups of a launch waited for each other in vain (cl/phases.cl) */
+  STATUS_CANDIDATES = 256 /* more pairs of fat boxes than capacity, so that pairs may be missing */
 };
 
 /* The stage that first saw a body non-finite, in pipeline order. */

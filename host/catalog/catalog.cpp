@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <tandem/round_to_float.h>
 
@@ -332,6 +333,13 @@ std::string describe(const SceneSpec &spec)
   return text;
 }
 
+/* Without a limit where the system does not say. */
+uint64_t memory_of_machine()
+{
+  const long pages = sysconf(_SC_PHYS_PAGES), bytes = sysconf(_SC_PAGE_SIZE);
+  return pages > 0 && bytes > 0 ? static_cast<uint64_t>(pages) * static_cast<uint64_t>(bytes) : UINT64_MAX;
+}
+
 } // namespace
 
 std::span<const BuiltInScene> built_in_scenes() { return catalog(); }
@@ -347,10 +355,18 @@ SceneSpec parse_scene_spec(const std::string &text)
     start = comma;
   }
   for (const SceneParameter &p : spec.scene->parameters) spec.values.emplace(p.name, p.default_value);
-  uint64_t count = spec.scene->body_count(spec.values);
-  if (count > most_bodies)
-    throw InputError(fmt::format("scene {}: {} bodies; at most {} are possible", text, count, most_bodies));
+  check_bodies(text, spec.scene->body_count(spec.values), memory_of_machine());
   return spec;
+}
+
+void check_bodies(const std::string &scene, uint64_t bodies, uint64_t memory)
+{
+  if (bodies > most_bodies)
+    throw InputError(fmt::format("scene {}: {} bodies; at most {} are possible", scene, bodies, most_bodies));
+  constexpr uint64_t copies = 2;
+  if (const uint64_t needed = copies * sizeof(Body) * bodies; needed > memory)
+    throw InputError(fmt::format("scene {}: {} bodies take {} bytes, and this machine has {}; at most {} are possible",
+                                 scene, bodies, needed, memory, memory / (copies * sizeof(Body))));
 }
 
 Scene build_scene(const SceneSpec &spec)

@@ -34,7 +34,9 @@ struct BuiltInScene {
 };
 
 /* A scene with more bodies than this is refused before any memory is allocated. */
-inline constexpr uint64_t most_bodies = 4'000'000;
+inline constexpr uint64_t most_bodies = 64'000'000;
+/* So is one whose bodies alone do not fit into so much memory, in the scene and in the world that copies it. */
+void check_bodies(const std::string &scene, uint64_t bodies, uint64_t memory);
 
 std::span<const BuiltInScene> built_in_scenes();
 

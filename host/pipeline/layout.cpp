@@ -9,13 +9,15 @@
 #include <tandem/scene.h>
 
 #include "host/pipeline/primitives.h"
-#include "shared/broadphase/candidate_limits.h"
+#include "host/runtime/interface/features.h"
 #include "shared/broadphase/sweep_limits.h"
 #include "shared/platform.h"
 #include "shared/sleeping/table_limits.h"
 
 namespace tandem {
 namespace {
+
+constexpr uint32_t most_points_of_pair = 4;
 
 /* A capacity without a case here must not compile, whatever warnings are enabled. */
 #pragma GCC diagnostic push
@@ -25,8 +27,7 @@ size_t items_of(Capacity capacity, const Sizes &sizes)
   /* The numbers of bodies, pairs and parts of a scene are below 2^32 each, and buffers have few elements for each of
    * them, so 64 bits suffice for all products here. */
   const size_t sortable = std::max(2 * size_t{sizes.bodies}, size_t{sizes.pairs}); /* the ends of boxes; pairs */
-  const size_t most_sorted =
-      std::max(sortable, size_t{CANDIDATES_PER_PAIR} * sizes.pairs); /* entries are sorted in buffers of their own */
+  const size_t most_sorted = std::max(sortable, size_t{sizes.candidates});         /* which have buffers of their own */
   switch (capacity) {
   case Capacity::NOTHING: return 0;
   case Capacity::ONE: return 1;
@@ -54,7 +55,7 @@ size_t items_of(Capacity capacity, const Sizes &sizes)
   case Capacity::CELLS: return size_t{sizes.cells} + 1;
   case Capacity::LEAVES: return leaves_for(sizes.bodies);
   case Capacity::LEAF_TILES: return leaves_for(sizes.bodies) / TILE + 1;
-  case Capacity::CANDIDATE_PAIRS: return size_t{CANDIDATES_PER_PAIR} * sizes.pairs;
+  case Capacity::CANDIDATE_PAIRS: return sizes.candidates;
   case Capacity::TILES: return (size_t{sizes.bodies} + TILE) / TILE;
   case Capacity::SORTABLE: return sortable;
   case Capacity::SORT_HISTOGRAM: return histogram_words(most_sorted);
@@ -67,13 +68,21 @@ size_t items_of(Capacity capacity, const Sizes &sizes)
 }
 #pragma GCC diagnostic pop
 
+/* buffers.def counts the planes of all points that a pair can have. */
+uint32_t elements_of_item(Buffer buffer, const Sizes &sizes)
+{
+  const uint32_t elements = row_of(buffer).per_item;
+  const bool has_planes = buffer == Buffer::manifold_points || buffer == Buffer::constraint_points;
+  return has_planes ? elements / most_points_of_pair * points_of_pair(sizes.features) : elements;
+}
+
 } // namespace
 
 size_t bytes_of(Buffer buffer, const Sizes &sizes)
 {
   const BufferRow &row = row_of(buffer);
   if (row.feature != 0 && (row.feature & sizes.features) == 0) return 0;
-  return items_of(row.capacity, sizes) * row.per_item * size_of(row.element);
+  return items_of(row.capacity, sizes) * elements_of_item(buffer, sizes) * size_of(row.element);
 }
 
 void check_size(Buffer buffer, const Sizes &sizes)
@@ -84,6 +93,11 @@ void check_size(Buffer buffer, const Sizes &sizes)
     throw InputError(fmt::format("buffer {} would have {} elements, and kernels can number {}: fewer bodies, hulls or "
                                  "cells of cube maps are needed",
                                  row_of(buffer).name, elements, most));
+}
+
+uint32_t points_of_pair(Features features)
+{
+  return (features & FEATURE_SEVERAL_POINTS) != 0 ? most_points_of_pair : 1;
 }
 
 uint32_t leaves_for(uint32_t bodies) { return std::bit_ceil(std::max(bodies, 1u)); }

@@ -17,8 +17,9 @@ struct Sizes {
   uint32_t materials = 0;
   HullSizes hulls;
   TreeSizes trees;
-  uint32_t pairs = 0; /* capacity */
-  uint32_t cells = 0; /* capacity */
+  uint32_t pairs = 0;      /* capacity */
+  uint32_t cells = 0;      /* capacity */
+  uint32_t candidates = 0; /* capacity; 0 without the broadphase trees */
   Features features = 0;
 };
 
@@ -27,6 +28,9 @@ size_t bytes_of(Buffer buffer, const Sizes &sizes);
 
 /* Throws InputError that names a buffer with more elements than kernels can index with 32 bits. */
 void check_size(Buffer buffer, const Sizes &sizes);
+
+/* The most contact points of a pair, each with planes of its own (shared/point_rows.h). */
+uint32_t points_of_pair(Features features);
 
 /* The number of leaves of a hierarchy of so many bodies, a power of two. */
 uint32_t leaves_for(uint32_t bodies);

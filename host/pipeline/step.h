@@ -18,11 +18,12 @@ struct StepPlan {
   uint32_t bodies = 0;
   uint32_t capacity_pairs = 0;
   uint32_t capacity_cells = 0;
-  bool forces = false;         /* a program or a module applies forces to bodies */
-  bool sleeping = false;       /* Settings::sleeping */
-  bool drowsy = false;         /* some body had rested for long enough at the last step */
-  bool sleepers = false;       /* some bodies sleep */
-  bool other_sleepers = false; /* than in their table, which the step makes anew */
+  uint32_t capacity_candidates = 0; /* of the broadphase trees */
+  bool forces = false;              /* a program or a module applies forces to bodies */
+  bool sleeping = false;            /* Settings::sleeping */
+  bool drowsy = false;              /* some body had rested for long enough at the last step */
+  bool sleepers = false;            /* some bodies sleep */
+  bool other_sleepers = false;      /* than in their table, which the step makes anew */
   uint32_t island_rounds = 4;
   uint32_t colors = 16; /* up to COLOR_LIMIT + 1: the overflow constraints */
   uint32_t rounds = 16;

@@ -39,26 +39,6 @@ void Memory::resize(Buffer buffer, size_t bytes)
   entry.bytes = bytes;
 }
 
-/* Everything that can fail comes before the first change. */
-void Memory::grow(Buffer buffer, size_t bytes)
-{
-  Entry &entry = entries_[index_of(buffer)];
-  if (bytes <= entry.bytes) return;
-  Entry grown{entry.element, bytes, {}};
-  if (!entry.copies.empty()) {
-    grown.copies.reserve(1);
-    grown.copies.push_back({&host_storage(), allocate(entry, bytes, host_storage(), nullptr), true});
-    try {
-      download(buffer, grown.copies.front().handle, entry.bytes);
-    } catch (...) {
-      release(grown);
-      throw;
-    }
-  }
-  release(entry);
-  entry = std::move(grown);
-}
-
 void Memory::assign(Buffer buffer, const void *from, size_t bytes)
 {
   Entry &entry = entries_[index_of(buffer)];
@@ -224,6 +204,31 @@ void copy_within(Storage &storage, void *from, void *to, size_t bytes)
 }
 
 } // namespace
+
+/* Everything that can fail comes before the first change. Contents stay on the device that has them, because hundreds
+ * of megabytes would take longer through the host than a step does. */
+void Memory::fit(Buffer buffer, size_t bytes)
+{
+  Entry &entry = entries_[index_of(buffer)];
+  const size_t kept = std::min(bytes, entry.bytes);
+  if (bytes == entry.bytes) return;
+  Entry fitted{entry.element, bytes, {}};
+  if (!entry.copies.empty() && kept > 0) {
+    const Copy *device = valid_on_device(entry);
+    Storage &storage = device ? *device->storage : host_storage();
+    void *from = device ? device->handle : acquire(buffer, storage, Access::in);
+    fitted.copies.reserve(1);
+    fitted.copies.push_back({&storage, allocate(entry, bytes, storage, nullptr), true});
+    try {
+      copy_within(storage, from, fitted.copies.front().handle, kept);
+    } catch (...) {
+      release(fitted);
+      throw;
+    }
+  }
+  release(entry);
+  entry = std::move(fitted);
+}
 
 /* Reads directly from a device if the host's copy is stale, so that reading a count transfers only the count. */
 void Memory::download(Buffer buffer, void *to, size_t bytes, size_t offset)

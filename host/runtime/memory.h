@@ -57,8 +57,13 @@ public:
 
   /* Sets a new size; the contents become zero. Storage is allocated when a copy is first needed. */
   void resize(Buffer buffer, size_t bytes);
-  /* Enlarges a buffer and keeps its contents. If there is not enough memory (OutOfMemory), the buffer is unchanged. */
-  void grow(Buffer buffer, size_t bytes);
+  /* Changes the size and keeps the contents, as far as they fit. If there is not enough memory (OutOfMemory), the
+   * buffer is unchanged. grow: only if the size is larger. */
+  void fit(Buffer buffer, size_t bytes);
+  void grow(Buffer buffer, size_t bytes)
+  {
+    if (bytes > this->bytes(buffer)) fit(buffer, bytes);
+  }
   /* Replaces contents and size. If there is not enough memory (OutOfMemory), the buffer is unchanged. */
   void assign(Buffer buffer, const void *from, size_t bytes);
   /* Allocates the copy in a storage before anything runs; OutOfMemory leaves all contents unchanged. */

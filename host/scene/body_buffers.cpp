@@ -458,7 +458,7 @@ void measure_contacts(Memory &memory, Statistics &statistics)
   const auto points = memory.read<uint32_t>(Buffer::manifold_count, pairs),
              colors = memory.read<uint32_t>(Buffer::pair_color, pairs);
   double sum = 0;
-  for (uint32_t plane = 0; plane < 4; ++plane) {
+  for (uint32_t plane = 0; plane < counts[CAPACITY_POINTS]; ++plane) {
     const auto rows = memory.read<float4>(Buffer::manifold_points, pairs, size_t{plane} * stride);
     for (uint32_t i = 0; i < pairs; ++i) {
       if (points[i] <= plane || colors[i] == COLOR_INACTIVE) continue; /* triggers are not counted */

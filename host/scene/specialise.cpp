@@ -133,16 +133,20 @@ Features list_features(Features features)
   return std::count_if(std::begin(pair_tests), std::end(pair_tests), counts) > 1 ? FEATURE_PAIR_KINDS : 0;
 }
 
+/* A ball touches a shape with a test of its own at one point. */
+Features point_features(Features pairs)
+{
+  constexpr Features of_balls = FEATURE_SPHERE_SPHERE | FEATURE_SPHERE_BOX | FEATURE_SPHERE_HALF_SPACE;
+  return (pairs & ~of_balls) != 0 ? FEATURE_SEVERAL_POINTS : 0;
+}
+
 bool spins_unevenly(const Scene &scene, const Body &body)
 {
   const Vec3 inverse = inverse_inertia_of(scene, body);
   return is_dynamic(body) && (inverse[0] != inverse[1] || inverse[1] != inverse[2]);
 }
 
-bool is_damped(const Body &body)
-{
-  return is_dynamic(body) && (body.linear_damping > 0 || body.angular_damping > 0);
-}
+bool is_damped(const Body &body) { return is_dynamic(body) && (body.linear_damping > 0 || body.angular_damping > 0); }
 
 bool is_locked(const Body &body) { return locks_of(body) != 0; }
 
@@ -304,24 +308,17 @@ bool is_large(const Scene &scene, const Body &body, float median)
 
 BodyKind kind_of(const Scene &scene, const Body &body)
 {
-  return {body.shape,
-          body.material,
-          body.filter_group,
-          body.filter_mask,
-          body.type,
-          body.trigger,
-          body.continuous,
-          is_posed(body),
-          spins_unevenly(scene, body),
-          is_damped(body),
-          is_locked(body),
-          is_limited(body)};
+  return {body.shape,       body.material,   body.filter_group,
+          body.filter_mask, body.type,       body.trigger,
+          body.continuous,  is_posed(body),  spins_unevenly(scene, body),
+          is_damped(body),  is_locked(body), is_limited(body)};
 }
 
 Features features_of(const Scene &scene, const Settings &settings)
 {
   const Features pairs = pair_features(presence_of(scene));
-  Features features = pairs | list_features(pairs) | convex_features(scene) | body_features(scene);
+  Features features =
+      pairs | list_features(pairs) | point_features(pairs) | convex_features(scene) | body_features(scene);
   features |= narrowphase_features(scene, features, settings) | support_features(features, settings);
   if (settings.events) features |= FEATURE_EVENTS;
   return features;

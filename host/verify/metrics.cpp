@@ -55,7 +55,7 @@ public:
     velocity_ = memory.read_reals(Buffer::solver_velocity, 8 * size_t{counts[COUNT_BODIES]});
     delta_ = memory.read_reals(Buffer::solver_delta_pose, 8 * size_t{counts[COUNT_BODIES]});
     normal_ = plane(memory, Buffer::constraint_normal, 0);
-    for (size_t k = 0; k < 8; ++k) points_[k] = plane(memory, Buffer::constraint_points, k);
+    read_points(memory, counts[CAPACITY_POINTS]);
     for (size_t k = 0; k < 2; ++k) center_[k] = plane(memory, Buffer::constraint_center, k);
     normal_impulse_ = plane(memory, Buffer::constraint_normal_impulse, 0);
     friction_impulse_ = plane(memory, Buffer::constraint_friction_impulse, 0);
@@ -109,6 +109,14 @@ public:
   size_t count = 0;
 
 private:
+  /* Points without a plane are zeros (shared/point_rows.h). */
+  void read_points(Memory &memory, size_t planes)
+  {
+    for (size_t k = 0; k < 4; ++k)
+      for (const size_t arm : {size_t{0}, size_t{1}})
+        points_[4 * arm + k] = k < planes ? plane(memory, Buffer::constraint_points, planes * arm + k)
+                                          : std::vector<double>(4 * size_t{count});
+  }
   std::vector<double> plane(Memory &memory, Buffer buffer, size_t k) const
   {
     return memory.read_reals(buffer, 4 * count, 4 * k * stride_);

@@ -22,11 +22,6 @@ Velocity initial_velocity_of(const Body &body) { return {body.linear_velocity, b
 
 } // namespace
 
-uint32_t first_capacity(const Scene &scene, const Settings &settings)
-{
-  return static_cast<uint32_t>(std::min<uint64_t>(5 * uint64_t{scene.bodies.size()} + 1024, settings.max_pairs));
-}
-
 void check_solver(const Settings &settings, const Body &body, size_t index, const std::string &where)
 {
   if (settings.solver == Solver::avbd && locks_of(body) != 0)
@@ -66,7 +61,7 @@ World::Implementation::Implementation(Beginning beginning, const Placement &plac
   scene_entries = entries_of({special.awake, special.unbounded, special.large, bodies() - special.awake});
   counted_bodies = special.awake;
   plan.capacity_cells = cells_for(plan.bodies);
-  plan.capacity_pairs = beginning.pairs;
+  plan.capacity_pairs = plan.capacity_candidates = beginning.pairs;
   choose_broadphase_after(std::nullopt);
   record_kernels();
   place(backends.wanted());
@@ -89,6 +84,7 @@ Sizes World::Implementation::sizes() const
           .trees = trees.sizes,
           .pairs = plan.capacity_pairs,
           .cells = plan.capacity_cells,
+          .candidates = settings.broadphase == Broadphase::trees ? plan.capacity_candidates : 0,
           .features = special.features};
 }
 
@@ -171,6 +167,8 @@ void World::Implementation::stage_counts(StagedUploads &uploads) const
   for (const auto &[entry, value] : scene_entries) uploads.add_count(static_cast<uint32_t>(entry), value);
   uploads.add_count(CAPACITY_PAIRS, plan.capacity_pairs);
   uploads.add_count(CAPACITY_CELLS, plan.capacity_cells);
+  uploads.add_count(CAPACITY_POINTS, points_of_pair(special.features));
+  uploads.add_count(CAPACITY_CANDIDATES, plan.capacity_candidates);
 }
 
 void World::Implementation::number_bodies()

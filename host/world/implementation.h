@@ -46,6 +46,8 @@ constexpr uint32_t body_numbers = 1u << 28;
 
 /* The first capacity of pairs; a step that finds more runs again. */
 uint32_t first_capacity(const Scene &scene, const Settings &settings);
+/* The capacity for what was needed: an eighth more, so that a growing pile does not run every step twice. */
+uint64_t room_for(uint64_t needed);
 
 /* Throws InputError if the body has locked axes and the solver holds none. */
 void check_solver(const Settings &settings, const Body &body, size_t index, const std::string &where);
@@ -114,8 +116,17 @@ struct World::Implementation {
   void accept();
   void prepare_repetition(uint32_t status, bool &may_forget);
   bool candidates_overflow() const;
-  void grow_pairs(uint32_t needed, bool &may_forget);
-  void enlarge(uint32_t pairs);
+  uint32_t pairs_needed() const;
+  void grow_pairs(bool &may_forget);
+  struct PairCapacity {
+    uint32_t pairs, candidates;
+  };
+  PairCapacity capacity() const { return {plan.capacity_pairs, plan.capacity_candidates}; }
+  void set_capacity(const PairCapacity &capacity);
+  void enlarge(const PairCapacity &wanted);
+  void reserve_pairs(uint32_t pairs);
+  void shrink_to_fit();
+  void forget_contacts();
   void quarantine_from(uint32_t code, uint32_t status);
   void quarantine(uint32_t index, uint32_t stage);
 

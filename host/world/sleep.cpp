@@ -372,7 +372,10 @@ void World::Implementation::wake(const std::set<uint32_t> &islands)
   count_awake_bodies();
   size_t pairs = memory.read<uint32_t>(Buffer::cached_start, 1, special.awake).front();
   for (const uint32_t island : islands) pairs += sleepers.all().at(island).pairs.size();
-  if (pairs > plan.capacity_pairs) enlarge(static_cast<uint32_t>(std::min<size_t>(pairs + pairs / 4, most_pairs)));
+  if (pairs > plan.capacity_pairs) {
+    enlarge({static_cast<uint32_t>(std::min<uint64_t>(room_for(pairs), most_pairs)), plan.capacity_candidates});
+    forget_contacts();
+  }
   keep_order_of_events();
   std::vector<SleepingIsland> woken;
   std::vector<uint32_t> bodies_woken;

@@ -467,8 +467,7 @@ void check_modules(const std::vector<std::string> &wanted, const std::vector<Ext
 /* Ample, so that the next step hardly ever runs again, and enough for what modules keep by pairs. */
 uint32_t capacity_for(const SnapshotContents &contents)
 {
-  uint64_t pairs = std::max<uint64_t>(first_capacity(contents.scene, contents.settings),
-                                      uint64_t{contents.pairs} + contents.pairs / 4);
+  uint64_t pairs = std::max<uint64_t>(first_capacity(contents.scene, contents.settings), room_for(contents.pairs));
   pairs = std::max<uint64_t>(std::min<uint64_t>(pairs, contents.settings.max_pairs), contents.pairs);
   for (const auto &[buffer, bytes] : contents.buffers)
     if (!is_carried(row_of(buffer).lifetime) &&

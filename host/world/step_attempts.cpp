@@ -13,12 +13,12 @@
 #include "host/pipeline/scene_counts.h"
 #include "host/world/batch_fault.h"
 #include "host/world/implementation.h"
-#include "shared/broadphase/candidate_limits.h"
 
 namespace tandem {
 namespace {
 
-constexpr uint32_t lacks_contacts = STATUS_PAIRS | STATUS_ROUNDS | STATUS_COLORS | STATUS_WAKE;
+constexpr uint32_t lacks_pairs = STATUS_PAIRS | STATUS_CANDIDATES;
+constexpr uint32_t lacks_contacts = lacks_pairs | STATUS_ROUNDS | STATUS_COLORS | STATUS_WAKE;
 
 /* Each repetition fixes one cause; many repetitions in one step mean that something is wrong. */
 constexpr size_t most_repetitions = 64;
@@ -94,9 +94,8 @@ void World::Implementation::check_limits(const StepLimits &limits) const
       throw LimitExceeded(fmt::format("{}{} {} are needed, and {} are the most that the limits of this step allow",
                                       least, needed, what, limit));
   };
-  const bool overflows = (known[COUNT_STATUS] & STATUS_PAIRS) != 0,
-             goes_on = (known[COUNT_STATUS] & STATUS_ROUNDS) != 0;
-  if (overflows) check(candidates_overflow() ? "at least " : "", known[COUNT_PAIRS_NEEDED], limits.pairs, "pairs");
+  const bool overflows = (known[COUNT_STATUS] & lacks_pairs) != 0, goes_on = (known[COUNT_STATUS] & STATUS_ROUNDS) != 0;
+  if (overflows) check(candidates_overflow() ? "at least " : "", pairs_needed(), limits.pairs, "pairs");
   if (overflows) return;
   check("", known[COUNT_PAIRS], limits.pairs, "pairs");
   check(goes_on ? "at least " : "", known[COUNT_ROUNDS] + (goes_on ? 1 : 0), limits.rounds, "rounds of colouring");
@@ -164,13 +163,13 @@ void World::Implementation::undo(const Attempt &before) noexcept
     if (scene.bodies[quarantined[i].body].type == BodyType::dynamic) ++awake_dynamics;
   }
   quarantined.erase(quarantined.begin() + static_cast<ptrdiff_t>(before.quarantined), quarantined.end());
-  const uint32_t capacity = plan.capacity_pairs;
+  const PairCapacity grown = capacity();
   plan = before.plan;
-  plan.capacity_pairs = capacity;
+  set_capacity(grown);
   plan.sleepers = !sleepers.empty();
   plan.other_sleepers = true;
   for (const auto &[entry, value] : scene_entries) plan.known[static_cast<size_t>(entry)] = value;
-  if (capacity != before.plan.capacity_pairs) guess_counts();
+  if (grown.pairs != before.plan.capacity_pairs) guess_counts();
   try {
     restore_bodies();
   } catch (const std::exception &) { /* the next step restores them before anything else */
@@ -248,14 +247,13 @@ void World::Implementation::accept()
 
 void World::Implementation::prepare_repetition(uint32_t status, bool &may_forget)
 {
-  const uint32_t needed = plan.known[COUNT_PAIRS_NEEDED];
   if (status & STATUS_DEADLOCK) return backends.do_without_resident_groups();
   if (status & STATUS_ROUNDS) plan.rounds = std::min(2 * plan.rounds, most_rounds);
   if (status & STATUS_COLORS) plan.colors = plan.known[COUNT_COLORS];
   if (status & STATUS_ISLANDS) plan.island_rounds = std::min(2 * plan.island_rounds, most_rounds);
   if ((status & STATUS_SUBSTEPS) && !(status & lacks_contacts))
     raise_substeps(plan.substeps, plan.known[COUNT_LOAD_RATE], settings);
-  if (plan.colors > COLOR_LIMIT && !(status & STATUS_PAIRS)) enlarge(plan.capacity_pairs);
+  if (plan.colors > COLOR_LIMIT && !(status & lacks_pairs)) enlarge(capacity());
   if (status & STATUS_NONFINITE) quarantine_from(plan.known[COUNT_NONFINITE], status);
   note_sorted();
   if (status & STATUS_WAKE) wake_touched();
@@ -263,54 +261,8 @@ void World::Implementation::prepare_repetition(uint32_t status, bool &may_forget
   plan.known[COUNT_COMMIT_BODIES_PLUS_ONE] = special.awake + 1;
   plan.known[COUNT_COMMIT_PAIRS] = plan.known[COUNT_PAIRS];
   plan.known[COUNT_COMMIT_CONSTRAINTS] = plan.known[COUNT_CONSTRAINTS];
-  if (status & STATUS_PAIRS) grow_pairs(needed, may_forget); /* late, because it forgets the counts */
-  if (!is_still_right()) choose_again();                     /* the same, where many woke */
-}
-
-/* If candidates did not fit, the number of pairs among them is unknown. */
-bool World::Implementation::candidates_overflow() const
-{
-  return plan.known[COUNT_CANDIDATES_NEEDED] > uint64_t{CANDIDATES_PER_PAIR} * plan.capacity_pairs;
-}
-
-/* A broadphase that keeps its list may need capacity for more changes than there are pairs; without its kept list it
- * does not. */
-void World::Implementation::grow_pairs(uint32_t needed, bool &may_forget)
-{
-  if (needed > settings.max_pairs && std::exchange(may_forget, false)) return forget_kept(memory);
-  if (needed > settings.max_pairs)
-    throw std::runtime_error(
-        fmt::format("room for {}{} pairs is needed, and {} are the most (--max-pairs, Settings::max_pairs)",
-                    needed == UINT32_MAX || candidates_overflow() ? "at least " : "", needed, settings.max_pairs));
-  ++statistics.overflow;
-  enlarge(static_cast<uint32_t>(std::min<uint64_t>(uint64_t{needed} + needed / 4, settings.max_pairs)));
-  guess_counts();
-}
-
-/* Makes capacity for so many pairs, and for what the present plan launches; longer scans and sorts need other
- * kernels. */
-void World::Implementation::enlarge(uint32_t pairs)
-{
-  const uint32_t capacity = plan.capacity_pairs;
-  StepBuffers::Needs before = buffers.needs();
-  const auto give_up = [&] {
-    plan.capacity_pairs = capacity;
-    buffers.give_back_needs(std::move(before));
-  };
-  try {
-    plan.capacity_pairs = pairs;
-    record_kernels();
-    place_again();
-    forget_kept(memory);
-    buffers.make_ready(sizes());
-    set_count(memory, CAPACITY_PAIRS, pairs);
-  } catch (const OutOfMemory &error) {
-    give_up();
-    throw OutOfMemory(fmt::format("room for {} pairs and {} colours is needed: {}", pairs, plan.colors, error.what()));
-  } catch (...) {
-    give_up();
-    throw;
-  }
+  if (status & lacks_pairs) grow_pairs(may_forget); /* late, because it forgets the counts */
+  if (!is_still_right()) choose_again();            /* the same, where many woke */
 }
 
 /* code: COUNT_NONFINITE, which holds the first body that is not finite, and the stage. An attempt that lacked contacts

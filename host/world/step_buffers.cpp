@@ -37,8 +37,8 @@ size_t StepBuffers::wanted_bytes(Buffer buffer, const Sizes &sizes) const
   return needs_.touched[index_of(buffer)] || is_queried(buffer) ? bytes_of(buffer, sizes) : 0;
 }
 
-/* Of the buffers that grow, only the present sides of carried buffers must keep their contents. They are enlarged last,
- * when the others have released their memory. */
+/* Of the buffers that grow or shrink, only the present sides of carried buffers must keep their contents, also those
+ * that no kernel takes now. They come last, when the others have released their memory. */
 void StepBuffers::allocate(const Sizes &sizes)
 {
   for (size_t i = 0; i < needs_.touched.size(); ++i)
@@ -51,7 +51,8 @@ void StepBuffers::allocate(const Sizes &sizes)
     else if (!is_carried(lifetime)) memory_.resize(buffer, wanted_bytes(buffer, sizes));
   }
   for (const CarriedBuffer &buffer : carried_) memory_.resize(buffer.previous, wanted_bytes(buffer.previous, sizes));
-  for (const CarriedBuffer &buffer : carried_) memory_.grow(buffer.now, wanted_bytes(buffer.now, sizes));
+  for (const CarriedBuffer &buffer : carried_)
+    if (const size_t bytes = wanted_bytes(buffer.now, sizes)) memory_.fit(buffer.now, bytes);
 }
 
 void StepBuffers::make_ready(const Sizes &sizes)

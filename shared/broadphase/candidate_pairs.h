@@ -13,13 +13,12 @@
 #ifndef TANDEM_SHARED_BROADPHASE_CANDIDATE_PAIRS_H
 #define TANDEM_SHARED_BROADPHASE_CANDIDATE_PAIRS_H
 
-#include "shared/broadphase/candidate_limits.h"
 #include "shared/broadphase/fat_aabbs.h"
 #include "shared/broadphase/hierarchy_walks.h"
 #include "shared/broadphase/pair_keys.h"
 #include "shared/parallel/length.h"
 
-SHARED uint candidate_capacity(GLOBAL const uint *counts) { return CANDIDATES_PER_PAIR * counts[CAPACITY_PAIRS]; }
+SHARED uint candidate_capacity(GLOBAL const uint *counts) { return counts[CAPACITY_CANDIDATES]; }
 
 /* --- what those who left find -------------------------------------------------------------------------- */
 
@@ -186,14 +185,11 @@ SHARED void take_candidates_item(GLOBAL const uint *candidate_start, GLOBAL cons
     used = append_pair(pair_a, pair_b, first, used, counts[CAPACITY_PAIRS], a, candidate_found[from + k]);
 }
 
-/* If the kept list exceeded its capacity, the pair capacity grows, from which that of the list follows, and nothing is
- * kept. The step then runs again and finds all pairs anew. */
+/* If a list exceeded its capacity, which then grows, nothing is kept. The step runs again and finds all pairs anew. */
 SHARED void keep_candidates_item(GLOBAL uint *counts, uint i)
 {
   (void)i;
-  uint needed = units_of(counts[COUNT_CANDIDATES_NEEDED], CANDIDATES_PER_PAIR);
-  if (needed > counts[CAPACITY_PAIRS] && needed > counts[COUNT_PAIRS_NEEDED]) counts[COUNT_PAIRS_NEEDED] = needed;
-  counts[COUNT_KEPT] = needed > counts[CAPACITY_PAIRS] ? 0u : 1u;
+  counts[COUNT_KEPT] = counts[COUNT_CANDIDATES_NEEDED] > candidate_capacity(counts) ? 0u : 1u;
 }
 
 #endif

@@ -13,6 +13,7 @@
 #ifndef TANDEM_SHARED_EVENTS_IMPULSES_H
 #define TANDEM_SHARED_EVENTS_IMPULSES_H
 
+#include "shared/point_rows.h"
 #include "shared/records.h"
 
 SHARED vec4 sum_of_rows(vec4 a, vec4 b) { return make_vec4(a.x + b.x, a.y + b.y, a.z + b.z, a.w + b.w); }
@@ -55,7 +56,7 @@ SHARED void find_touching_item(GLOBAL const uint *pair_color, GLOBAL const float
   for (uint k = 0; k < 4u; ++k) {
     mask touches =
         (points > (uint_lanes)k) &
-        point_touches(load_float4(manifold_points, counts[CAPACITY_PAIRS] * k + i), component(impulse, (uint_lanes)k));
+        point_touches(load_manifold_point(manifold_points, planes_of(counts), k, i), component(impulse, (uint_lanes)k));
     touching = choose(touches, (uint_lanes)1u, touching);
   }
   store_uint(pair_touching, i, touching);

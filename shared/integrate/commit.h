@@ -15,6 +15,7 @@ SHARED void begin_step_item(GLOBAL uint *counts, uint i)
   (void)i;
   counts[COUNT_PAIRS] = 0u;
   counts[COUNT_PAIRS_NEEDED] = 0u;
+  counts[COUNT_CANDIDATES_NEEDED] = 0u;
   counts[COUNT_CONSTRAINTS] = 0u;
   counts[COUNT_UNCOLORED] = 0u;
   counts[COUNT_ROUNDS] = 0u;
@@ -56,6 +57,7 @@ SHARED void finish_step_item(GLOBAL uint *counts, uint colors, uint load_rate, u
   if (counts[COUNT_SLEEPER_PAIRS_NEEDED] > counts[COUNT_PAIRS_NEEDED])
     counts[COUNT_PAIRS_NEEDED] = counts[COUNT_SLEEPER_PAIRS_NEEDED];
   if (counts[COUNT_PAIRS_NEEDED] > counts[CAPACITY_PAIRS]) status |= STATUS_PAIRS;
+  if (counts[COUNT_CANDIDATES_NEEDED] > counts[CAPACITY_CANDIDATES]) status |= STATUS_CANDIDATES;
   if (counts[COUNT_UNCOLORED] != 0u) status |= STATUS_ROUNDS;
   if (counts[COUNT_COLORS] > colors || (colors > COLOR_LIMIT && counts[COUNT_COLORS] <= COLOR_LIMIT))
     status |= STATUS_COLORS;

@@ -73,7 +73,7 @@ SHARED void drop_internal_edges_item(GLOBAL const uint *internal_edge, GLOBAL co
 {
   if (internal_edge[i] == 0u) return;
   vec3 none = make_vec3(R(0.0), R(0.0), R(0.0));
-  store_manifold_if(1, single_contact(none, none, R(0.0), 0), counts[CAPACITY_PAIRS], manifolds, i);
+  store_manifold_if(1, single_contact(none, none, R(0.0), 0), planes_of(counts), manifolds, i);
 }
 
 #endif

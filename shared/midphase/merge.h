@@ -70,7 +70,8 @@ SHARED void group_manifolds_item(GLOBAL const Parameters *parameters, read_part_
 typedef struct {
   GLOBAL const uint *group, *counts_of_points;
   GLOBAL const float4 *points;
-  uint stride, first, end; /* leaves first .. end - 1 may belong to the group of `first` */
+  point_planes planes;
+  uint first, end; /* leaves first .. end - 1 may belong to the group of `first` */
 } manifold_group;
 
 /* Streams all points of the group through the reduction. With `wanted` it instead returns the offset of the point that
@@ -81,7 +82,7 @@ SHARED vec3 stream_group(reduction *r, const manifold_group *group, tangents axe
   for (uint j = group->first; j < group->end; ++j) {
     if (group->group[j] != group->first) continue;
     for (uint k = 0u; k < group->counts_of_points[j]; ++k) {
-      vec4 point = load_float4(group->points, group->stride * k + j);
+      vec4 point = load_manifold_point(group->points, group->planes, k, j);
       clip_point candidate = {dot3(axes.first, xyz(point)), dot3(axes.second, xyz(point)), point.w, 1};
       if (!wanted) reduce_step(r, candidate);
       else if (candidate.u == wanted->u && candidate.v == wanted->v && candidate.separation == wanted->separation)
@@ -117,18 +118,19 @@ SHARED void merge_manifolds_item(read_pairs pairs, GLOBAL const float4 *shapes, 
                                  GLOBAL const uint *counts, write_manifolds manifolds, uint i)
 {
   if (group[i] != i || manifolds.count[i] == 0u) return;
-  uint stride = counts[CAPACITY_PAIRS], end = i + 1u, members = 0u;
+  point_planes planes = planes_of(counts);
+  uint end = i + 1u, members = 0u;
   for (; end < counts[COUNT_PAIRS] && same_bodies(pairs.a, pairs.b, i, end); ++end)
     members = members + (group[end] == i ? 1u : 0u);
   if (members == 0u) return;
-  manifold_group all = {group, manifolds.count, manifolds.points, stride, i, end};
+  manifold_group all = {group, manifolds.count, manifolds.points, planes, i, end};
   real radius_a = load_float4(shapes, pairs.a[i]).w, radius_b = load_float4(shapes, pairs.b[i]).w;
   real size = radius_a > R(0.0) && (radius_a < radius_b || radius_b <= R(0.0)) ? radius_a : radius_b;
   manifold m = joined_manifold(&all, load_float4(manifolds.normal, i), size);
   manifold nothing = single_contact(m.normal, xyz(m.point[0]), R(0.0), 0);
   for (uint j = i + 1u; j < end; ++j)
-    if (group[j] == i) store_manifold_if(1, nothing, stride, manifolds, j);
-  store_manifold_if(1, m, stride, manifolds, i);
+    if (group[j] == i) store_manifold_if(1, nothing, planes, manifolds, j);
+  store_manifold_if(1, m, planes, manifolds, i);
 }
 
 #endif

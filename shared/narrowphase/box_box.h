@@ -319,7 +319,7 @@ SHARED void collide_box_box_item(read_listed_pairs pairs, GLOBAL const uint *fla
   vec3 toward = parting_offset(pair.boxes.offset, parameters->slop, pair.least, a, b);
   box_pair boxes = along_best_axis(pair.boxes, toward, parameters->slop, pair.rounded, NEARLY_ALONG);
   manifold m = boxes_contact(parameters, mine, boxes, pair.moves);
-  store_manifold_if(mine, m, counts[CAPACITY_PAIRS], manifolds, item.pair);
+  store_manifold_if(mine, m, planes_of(counts), manifolds, item.pair);
 
   mask unsure = mine & may_be_followed(m, pair.input);
   if (!any_of(unsure)) return;

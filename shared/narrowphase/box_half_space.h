@@ -123,7 +123,7 @@ SHARED void collide_box_half_space_item(read_listed_pairs pairs, GLOBAL const ui
     m = choose_manifold(met.at_impact, box_plane_contact(then, reach), m);
     m = as_seen_from_start(parameters, m, met, choose3(box_first, negate(then.center), then.center), moves);
   }
-  store_manifold_if(mine, m, counts[CAPACITY_PAIRS], manifolds, item.pair);
+  store_manifold_if(mine, m, planes_of(counts), manifolds, item.pair);
 }
 
 #endif

@@ -139,10 +139,10 @@ SHARED mask is_ahead(GLOBAL const Parameters *parameters, const convex_query *qu
   return m.impact_time >= BESIDE && may_meet_triangle(parameters, query);
 }
 
-SHARED void store_start(GLOBAL const Parameters *parameters, const convex_query *query, manifold m, uint stride,
+SHARED void store_start(GLOBAL const Parameters *parameters, const convex_query *query, manifold m, point_planes planes,
                         write_manifolds manifolds, uint pair)
 {
-  store_manifold_if(1, m, stride, manifolds, pair);
+  store_manifold_if(1, m, planes, manifolds, pair);
   mark_to_follow_if(is_ahead(parameters, query, m), m, manifolds.count, pair);
 }
 
@@ -160,12 +160,13 @@ SHARED void collide_convex_item(read_listed_part_pairs pairs, read_shapes shapes
 {
   /* This test lets a device compiler drop the whole kernel in scenes without such pairs. */
   if (!HAS_FEATURE(parameters, CONVEX_CONVEX)) return;
-  uint stride = counts[CAPACITY_PAIRS], pair;
+  uint pair;
+  point_planes planes = planes_of(counts);
   if (!is_convex_pair(&pair, parameters, pairs, shapes.flags, PAIR_KIND_CONVEX_CONVEX, i)) return;
   convex_query query;
   if (load_convex_query(&query, pairs, shapes, surfaces, bodies, parameters, method, pair))
-    store_start(parameters, &query, contact_of_query(parameters, &query, method & 255u), stride, manifolds, pair);
-  else store_no_manifold(stride, manifolds, pair);
+    store_start(parameters, &query, contact_of_query(parameters, &query, method & 255u), planes, manifolds, pair);
+  else store_no_manifold(planes, manifolds, pair);
 }
 
 SHARED void collide_convex_half_space_item(read_listed_part_pairs pairs, read_shapes shapes, read_surfaces surfaces,
@@ -203,7 +204,7 @@ SHARED void collide_convex_half_space_item(read_listed_part_pairs pairs, read_sh
     for (int slot = 0; slot < 4; ++slot)
       m.point[slot] = extend(subtract(xyz(m.point[slot]), to_plane), m.point[slot].w);
   }
-  store_manifold_if(1, m, counts[CAPACITY_PAIRS], manifolds, pair);
+  store_manifold_if(1, m, planes_of(counts), manifolds, pair);
 }
 
 #endif

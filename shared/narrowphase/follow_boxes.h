@@ -100,9 +100,9 @@ SHARED void follow_pair_of_boxes(read_listed_pairs pairs, GLOBAL const float4 *s
                                  GLOBAL const Parameters *parameters, GLOBAL const uint *counts,
                                  write_manifolds manifolds, uint i)
 {
-  uint stride = counts[CAPACITY_PAIRS];
+  point_planes planes = planes_of(counts);
   moving_boxes pair = load_boxes(shapes, bodies, parameters, pairs.a[i], pairs.b[i]);
-  manifold start = load_manifold(stride, manifolds, i);
+  manifold start = load_manifold(planes, manifolds, i);
   if (keeps_start(parameters, &pair, start)) {
     manifolds.count[i] = points_of(start);
     return;
@@ -115,7 +115,7 @@ SHARED void follow_pair_of_boxes(read_listed_pairs pairs, GLOBAL const float4 *s
   met.at_impact = met.at_impact && has_points(m);
   if (met.at_impact && !met.missed) m = with_middle_of_box(m, then, pair.moves);
   m = as_seen_from_start(parameters, met.at_impact ? m : start, met, then.offset, pair.moves);
-  store_manifold_if(1, m, stride, manifolds, i);
+  store_manifold_if(1, m, planes, manifolds, i);
 }
 
 /* local_memory: the number of marked pairs, then their indices in any order. */

@@ -75,14 +75,15 @@ SHARED void follow_convexes_item(read_listed_part_pairs pairs, read_shapes shape
                                  write_manifolds manifolds, uint method, uint i)
 {
   if (!HAS_FEATURE(parameters, CONVEX_CONVEX)) return;
-  uint stride = counts[CAPACITY_PAIRS], pair;
+  uint pair;
   if (!is_convex_pair(&pair, parameters, pairs, shapes.flags, PAIR_KIND_CONVEX_CONVEX, i)) return;
   convex_query query;
   if (manifolds.count[pair] < TO_FOLLOW ||
       !load_convex_query(&query, pairs, shapes, surfaces, bodies, parameters, method, pair))
     return;
-  manifold start = load_manifold(stride, manifolds, pair);
-  store_manifold_if(1, contact_over_step(parameters, &query, start, method & 255u), stride, manifolds, pair);
+  point_planes planes = planes_of(counts);
+  manifold start = load_manifold(planes, manifolds, pair);
+  store_manifold_if(1, contact_over_step(parameters, &query, start, method & 255u), planes, manifolds, pair);
 }
 
 #endif

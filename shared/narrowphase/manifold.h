@@ -17,6 +17,7 @@
 #define TANDEM_SHARED_NARROWPHASE_MANIFOLD_H
 
 #include "shared/argument_groups.h"
+#include "shared/point_rows.h"
 #include "shared/records.h"
 
 typedef struct {
@@ -104,7 +105,7 @@ SHARED void mark_to_follow_if(mask marked, manifold m, GLOBAL uint *counts_of_po
 }
 
 /* Kept points move to the front, each with its slot. The rows after the last point hold zeros. */
-SHARED void store_manifold_if(mask mine, manifold m, uint stride, write_manifolds manifolds, uint_lanes pair)
+SHARED void store_manifold_if(mask mine, manifold m, point_planes planes, write_manifolds manifolds, uint_lanes pair)
 {
   vec4 packed[4];
   uint_lanes count = 0u, slots = 0u;
@@ -119,13 +120,14 @@ SHARED void store_manifold_if(mask mine, manifold m, uint stride, write_manifold
   vec3 nothing = make_vec3(R(0.0), R(0.0), R(0.0));
   store_listed_row_if(mine, manifolds.normal, pair,
                       extend(choose3(touching, m.normal, nothing), choose(touching, m.impact_time, (real)R(0.0))));
-  for (int k = 0; k < 4; ++k) store_listed_row_if(mine, manifolds.points, stride * (uint)k + pair, packed[k]);
+  for (uint k = 0; k < planes.points; ++k)
+    store_listed_row_if(mine, manifolds.points, planes.stride * k + pair, packed[k]);
   store_uint_if(mine, manifolds.count, pair, count);
   store_uint_if(mine, manifolds.feature, pair, choose(touching, (m.code << 8u) | slots, (uint_lanes)0u));
 }
 
 /* The manifold that was stored. Points that are not kept hold zeros. */
-SHARED manifold load_manifold(uint stride, write_manifolds manifolds, item_index i)
+SHARED manifold load_manifold(point_planes planes, write_manifolds manifolds, item_index i)
 {
   vec4 normal = load_float4(manifolds.normal, i);
   uint_lanes count = load_uint(manifolds.count, i) & (TO_FOLLOW - 1u), feature = load_uint(manifolds.feature, i);
@@ -134,7 +136,7 @@ SHARED manifold load_manifold(uint stride, write_manifolds manifolds, item_index
   m.impact_time = normal.w;
   m.code = feature >> 8u;
   for (int k = 0; k < 4; ++k) {
-    vec4 point = load_float4(manifolds.points, stride * (uint)k + i);
+    vec4 point = load_manifold_point(manifolds.points, planes, (uint)k, i);
     uint_lanes slot_of_point = (feature >> ((uint_lanes)(uint)k * 2u)) & 3u;
     for (int slot = 0; slot < 4; ++slot) {
       mask here = (count > (uint_lanes)(uint)k) & (slot_of_point == (uint_lanes)(uint)slot);
@@ -146,12 +148,12 @@ SHARED manifold load_manifold(uint stride, write_manifolds manifolds, item_index
 }
 
 /* Stores a manifold without points, with the same result as store_manifold_if. */
-SHARED void store_no_manifold(uint stride, write_manifolds manifolds, uint i)
+SHARED void store_no_manifold(point_planes planes, write_manifolds manifolds, uint i)
 {
   float4 nothing;
   nothing.x = nothing.y = nothing.z = nothing.w = R(0.0);
   manifolds.normal[i] = nothing;
-  for (uint k = 0u; k < 4u; ++k) manifolds.points[stride * k + i] = nothing;
+  for (uint k = 0u; k < planes.points; ++k) manifolds.points[planes.stride * k + i] = nothing;
   manifolds.count[i] = 0u;
   manifolds.feature[i] = 0u;
 }

@@ -126,21 +126,21 @@ SHARED void reduce_contacts_item(read_listed_part_pairs pairs, read_shapes shape
   uint pair;
   if (!is_convex_pair(&pair, parameters, pairs, shapes.flags, PAIR_KIND_CONVEX_CONVEX, i)) return;
   convex_query query;
-  uint stride = counts[CAPACITY_PAIRS];
+  point_planes planes = planes_of(counts);
   if (axes.state[pair] == SPLIT_APART ||
       !load_convex_query(&query, pairs, shapes, surfaces, bodies, parameters, method, pair)) {
-    store_no_manifold(stride, manifolds, pair);
+    store_no_manifold(planes, manifolds, pair);
     return;
   }
   convex_pair both = pair_of(&query.first, &query.second);
   contact_patch patch;
   patch.code = code_of_features(faces[pair * 2u], faces[pair * 2u + 1u]);
   mask reduced = clipped.count[pair] != INDEX_NONE &&
-                 reduced_patch(&patch, &both, load_float4(axes.axis, pair), clipped, stride, pair);
+                 reduced_patch(&patch, &both, load_float4(axes.axis, pair), clipped, planes.stride, pair);
   manifold m;
   if (reduced) m = within_reach(parameters, &query, kept_within(placed_manifold(&both, &patch), query.reach));
   else m = contact_of_query(parameters, &query, method & 255u);
-  store_start(parameters, &query, m, stride, manifolds, pair);
+  store_start(parameters, &query, m, planes, manifolds, pair);
 }
 
 #endif

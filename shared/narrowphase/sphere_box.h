@@ -127,7 +127,7 @@ SHARED void collide_sphere_box_item(read_listed_pairs pairs, GLOBAL const uint *
     m = choose_manifold(met.at_impact, later, m);
     m = as_seen_from_start(parameters, m, met, choose3(sphere_first, negate(then.center), then.center), moves);
   }
-  store_manifold_if(mine, m, counts[CAPACITY_PAIRS], manifolds, item.pair);
+  store_manifold_if(mine, m, planes_of(counts), manifolds, item.pair);
 }
 
 #endif

@@ -31,7 +31,7 @@ SHARED void collide_sphere_half_space_item(read_listed_pairs pairs, GLOBAL const
   real reach = reach_of(parameters, load_velocity(bodies.velocity, a), R(0.0), load_velocity(bodies.velocity, b),
                         R(0.0), normal);
   manifold m = single_contact(normal, offset, separation, separation < reach);
-  store_manifold_if(mine, m, counts[CAPACITY_PAIRS], manifolds, item.pair);
+  store_manifold_if(mine, m, planes_of(counts), manifolds, item.pair);
 }
 
 #endif

@@ -86,7 +86,7 @@ SHARED void collide_sphere_sphere_item(read_listed_pairs pairs, GLOBAL const uin
     m = choose_manifold(met.at_impact, there, m);
     m = as_seen_from_start(parameters, m, met, offset, moves);
   }
-  store_manifold_if(mine, m, counts[CAPACITY_PAIRS], manifolds, item.pair);
+  store_manifold_if(mine, m, planes_of(counts), manifolds, item.pair);
 }
 
 #endif

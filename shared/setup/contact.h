@@ -12,6 +12,7 @@
 #define TANDEM_SHARED_SETUP_CONTACT_H
 
 #include "shared/argument_groups.h"
+#include "shared/point_rows.h"
 #include "shared/records.h"
 
 /* Below this sliding speed contacts count as sticking, and the static coefficient holds, m/s. */
@@ -226,12 +227,12 @@ typedef struct {
   real radius;
 } friction_patch;
 
-SHARED friction_patch patch_of(GLOBAL const float4 *manifold_points, uint_lanes pair, uint stride, uint_lanes points,
-                               real near)
+SHARED friction_patch patch_of(GLOBAL const float4 *manifold_points, uint_lanes pair, point_planes planes,
+                               uint_lanes points, real near)
 {
   vec4 point[4];
   real weight[4], sum = R(0.0);
-  for (uint k = 0; k < 4u; ++k) point[k] = load_float4(manifold_points, stride * k + pair);
+  for (uint k = 0; k < 4u; ++k) point[k] = load_manifold_point(manifold_points, planes, k, pair);
   mask none = point[0].w > near;
   for (uint k = 1; k < 4u; ++k) none = none & ((points <= (uint_lanes)k) | (point[k].w > near));
   for (uint k = 0; k < 4u; ++k) {
@@ -340,16 +341,16 @@ typedef struct {
 } points_setup;
 
 SHARED void prepare_point(GLOBAL const Parameters *parameters, const contact_setup *s, const old_impulses *old,
-                          vec4 point, uint k, uint stride, points_setup *points, GLOBAL float4 *constraint_points,
-                          item_index i)
+                          vec4 point, uint k, point_planes planes, points_setup *points,
+                          GLOBAL float4 *constraint_points, item_index i)
 {
   mask used = s->points > (uint_lanes)k;
-  vec3 arm_a = xyz(point), arm_b = subtract(arm_a, s->bodies.offset);
+  vec3 arm_a = xyz(point), arm_b = subtract(arm_a, s->bodies.offset), none = make_vec3(R(0.0), R(0.0), R(0.0));
   real mass = choose(used, normal_mass(s->bodies, arm_a, arm_b, s->normal), (real)R(0.0));
   real speed = dot3(s->normal, relative_velocity(s->bodies, arm_a, arm_b));
-  store_float4(constraint_points, stride * k + i,
-               extend(add(arm_a, s->arms_back.a), choose(used, point.w, (real)R(0.0))));
-  store_float4(constraint_points, stride * (k + 4u) + i, extend(add(arm_b, s->arms_back.b), mass));
+  store_arm_of_a(constraint_points, planes, k, i,
+                 extend(choose3(used, add(arm_a, s->arms_back.a), none), choose(used, point.w, (real)R(0.0))));
+  store_arm_of_b(constraint_points, planes, k, i, extend(choose3(used, add(arm_b, s->arms_back.b), none), mass));
   points->impulse[k] =
       choose(used & old->is_cached,
              parameters->warm_start_scale * cached_impulse(s->feature, k, old->feature, old->normal), (real)R(0.0));
@@ -384,16 +385,17 @@ SHARED vec4 kept_friction(GLOBAL const Parameters *parameters, const old_impulse
 }
 
 SHARED void prepare_friction(GLOBAL const Parameters *parameters, const contact_setup *s, const old_impulses *old,
-                             GLOBAL const float4 *manifold_points, uint stride, write_constraints constraints,
+                             GLOBAL const float4 *manifold_points, point_planes planes, write_constraints constraints,
                              item_index i)
 {
-  friction_patch patch = patch_of(manifold_points, s->pair, stride, s->points, parameters->speculative_distance);
+  friction_patch patch = patch_of(manifold_points, s->pair, planes, s->points, parameters->speculative_distance);
   vec3 center_a = patch.center, center_b = subtract(center_a, s->bodies.offset);
   real friction = friction_between(s, center_a, center_b);
   store_float4(constraints.normal, i, extend(s->normal, packed_friction(friction, s->arms_stay)));
   store_float4(constraints.center, i,
                extend(add(center_a, s->arms_back.a), friction_mass(s->bodies, center_a, center_b, s->normal)));
-  store_float4(constraints.center, stride + i, extend(add(center_b, s->arms_back.b), twist_mass(s->bodies, s->normal)));
+  store_float4(constraints.center, planes.stride + i,
+               extend(add(center_b, s->arms_back.b), twist_mass(s->bodies, s->normal)));
   store_float4(constraints.friction_impulse, i, kept_friction(parameters, old, s->normal, patch.radius));
 }
 
@@ -404,7 +406,7 @@ SHARED void prepare_contacts_item(GLOBAL const Parameters *parameters, GLOBAL co
                                   GLOBAL const uint *counts, write_constraints constraints, GLOBAL uint *body_falls,
                                   item_index i)
 {
-  uint stride = counts[CAPACITY_PAIRS];
+  point_planes planes = planes_of(counts);
   uint_lanes pair = load_uint(sort_value, i);
   contact_setup s = begin_setup(parameters, material, touching_bodies, part_pairs, manifolds, pair);
   old_impulses old = load_old_impulses(cached_contacts, load_uint(pair_cached, pair));
@@ -412,10 +414,10 @@ SHARED void prepare_contacts_item(GLOBAL const Parameters *parameters, GLOBAL co
   points.deepest = R(0.0);
   points.near = s.bodies.a == s.bodies.b; /* none yet */
   for (uint k = 0; k < 4u; ++k)
-    prepare_point(parameters, &s, &old, load_float4(manifolds.points, stride * k + pair), k, stride, &points,
+    prepare_point(parameters, &s, &old, load_manifold_point(manifolds.points, planes, k, pair), k, planes, &points,
                   constraints.points, i);
   mark_borne(parameters, &s, points.near, body_falls);
-  prepare_friction(parameters, &s, &old, manifolds.points, stride, constraints, i);
+  prepare_friction(parameters, &s, &old, manifolds.points, planes, constraints, i);
 
   store_uint(constraints.pair, i, pair);
   store_uint(constraints.a, i, s.bodies.a);
@@ -427,7 +429,7 @@ SHARED void prepare_contacts_item(GLOBAL const Parameters *parameters, GLOBAL co
     store_float4(constraints.restitution, i,
                  make_vec4(points.target_velocity[0], points.target_velocity[1], points.target_velocity[2],
                            points.target_velocity[3]));
-    store_float4(constraints.restitution, stride + i, make_vec4(R(0.0), R(0.0), R(0.0), R(0.0)));
+    store_float4(constraints.restitution, planes.stride + i, make_vec4(R(0.0), R(0.0), R(0.0), R(0.0)));
   }
 }
 

@@ -72,13 +72,13 @@ SHARED real force_borne(GLOBAL const Parameters *parameters, GLOBAL const float4
 }
 
 /* Whether some point is as near as gravity closes within the step. */
-SHARED uint stands_near(GLOBAL const Parameters *parameters, GLOBAL const float4 *constraint_points, uint stride,
-                        uint i)
+SHARED uint stands_near(GLOBAL const Parameters *parameters, GLOBAL const float4 *constraint_points,
+                        point_planes planes, uint i)
 {
   real reach = R(0.5) * parameters->gravity_length * parameters->step * parameters->step;
   for (uint k = 0; k < 4u; ++k)
-    if (load_float4(constraint_points, stride * (k + 4u) + i).w > R(0.0) &&
-        load_float4(constraint_points, stride * k + i).w <= reach)
+    if (load_arm_of_b(constraint_points, planes, k, i).w > R(0.0) &&
+        load_arm_of_a(constraint_points, planes, k, i).w <= reach)
       return 1u;
   return 0u;
 }
@@ -113,7 +113,7 @@ SHARED void weigh_standing_item(GLOBAL const Parameters *parameters, GLOBAL cons
   real borne = force_borne(parameters, constraint_normal_impulse, i);
   uint is_new = pair_cached[constraint_pair[i]] == INDEX_NONE ? 1u : 0u;
   if (!(borne > R(0.0)) && (p.closing > parameters->gravity_length * parameters->step ||
-                            !stands_near(parameters, constraint_points, counts[CAPACITY_PAIRS], i)))
+                            !stands_near(parameters, constraint_points, planes_of(counts), i)))
     return;
   uint layers = standing_above[2u * p.upper] + 1u;
   real weight = R(1.0) / p.inverse_mass_upper + BITS_FLOAT(standing_above[2u * p.upper + 1u]);

@@ -122,7 +122,7 @@ SHARED void avbd_body(GLOBAL const Parameters *parameters, read_blocks blocks, r
                       read_patches patches, read_duals duals, read_body_constraint_lists body_constraint_lists,
                       GLOBAL const uint *counts, GLOBAL float4 *solver_velocity, uint body)
 {
-  uint stride = counts[CAPACITY_PAIRS];
+  point_planes planes = planes_of(counts);
   spatial_velocity m = load_velocity(solver_velocity, body);
   vec3 inverse_moments = xyz(load_float4(blocks.mass, body * 2u));
   block_frame frame = {
@@ -136,7 +136,7 @@ SHARED void avbd_body(GLOBAL const Parameters *parameters, read_blocks blocks, r
     frame.side = (entry & 1u) != 0u ? R(1.0) : R(-1.0);
     contact c = load_contact(contacts, solver_velocity, blocks.inertia, i);
     add_contact(&s, frame, duals.normal, duals.penalty, c,
-                forces_of(parameters, patches, duals.normal, duals.friction, duals.penalty, blocks.delta, stride, c, i),
+                forces_of(parameters, patches, duals.normal, duals.friction, duals.penalty, blocks.delta, planes, c, i),
                 i);
   }
   solve_block(&s);

@@ -119,13 +119,13 @@ typedef struct {
 
 /* Loads the Jacobians, masses and impulses of the points. The caller keeps their separations at the start of the
  * step. */
-SHARED normal_rows load_normal_rows(GLOBAL const float4 *constraint_points, uint stride, contact c, arm_shift shift,
-                                    vec4 impulses, item_index i)
+SHARED normal_rows load_normal_rows(GLOBAL const float4 *constraint_points, point_planes planes, contact c,
+                                    arm_shift shift, vec4 impulses, item_index i)
 {
   normal_rows s;
   for (uint k = 0; k < 4u; ++k) {
-    vec4 point_b = load_float4(constraint_points, stride * (k + 4u) + i);
-    s.r_cross_n_a[k] = cross3(add(xyz(load_float4(constraint_points, stride * k + i)), shift.a), c.normal);
+    vec4 point_b = load_arm_of_b(constraint_points, planes, k, i);
+    s.r_cross_n_a[k] = cross3(add(xyz(load_arm_of_a(constraint_points, planes, k, i)), shift.a), c.normal);
     s.r_cross_n_b[k] = cross3(add(xyz(point_b), shift.b), c.normal);
     s.mass[k] = point_b.w;
     s.impulse[k] = component(impulses, (uint_lanes)k);
@@ -160,12 +160,12 @@ SHARED void warm_start_item(read_contacts contacts, read_patches patches,
                             GLOBAL const float4 *solver_delta_pose, GLOBAL const uint *counts,
                             GLOBAL float4 *solver_velocity, item_index i)
 {
-  uint stride = counts[CAPACITY_PAIRS];
+  point_planes planes = planes_of(counts);
   contact c = load_contact(contacts, solver_velocity, solver_inertia, i);
   arm_shift shift = load_arm_shift(solver_delta_pose, c);
-  normal_rows s = load_normal_rows(patches.points, stride, c, shift, load_float4(constraint_normal_impulse, i), i);
+  normal_rows s = load_normal_rows(patches.points, planes, c, shift, load_float4(constraint_normal_impulse, i), i);
   vec3 center_a = add(xyz(load_float4(patches.center, i)), shift.a),
-       center_b = add(xyz(load_float4(patches.center, stride + i)), shift.b);
+       center_b = add(xyz(load_float4(patches.center, planes.stride + i)), shift.b);
   wrench w = wrench_of(c, s, center_a, center_b, load_float4(constraint_friction_impulse, i));
   store_contact_velocities(solver_velocity,
                            apply_impulse(c, w.impulse, w.angular_impulse_a, w.angular_impulse_b, R(1.0)));
@@ -209,8 +209,7 @@ SHARED mask masses_are_stale(delta_pose moved, arm_shift shift, vec4 center_a, v
 /* The bodies of a contact in the form that setup uses. The offset is not valid, because no mass depends on it. */
 SHARED body_pair bodies_of(contact c)
 {
-  body_pair bodies = {c.a,         c.b,      c.velocity_a, c.velocity_b, c.inertia_a,
-                      c.inertia_b, c.normal, c.locks_a,    c.locks_b};
+  body_pair bodies = {c.a, c.b, c.velocity_a, c.velocity_b, c.inertia_a, c.inertia_b, c.normal, c.locks_a, c.locks_b};
   return bodies;
 }
 
@@ -310,28 +309,27 @@ SHARED contact block_solve_normals(contact c, normal_rows *s, const real *target
     r_cross_n_a = add_scaled(r_cross_n_a, s->r_cross_n_a[k], change[k]);
     r_cross_n_b = add_scaled(r_cross_n_b, s->r_cross_n_b[k], change[k]);
   }
-  real whole = linear_energy(c, sum) +
-               dot3(r_cross_n_a, symmetric_times(c.inertia_a, r_cross_n_a)) +
+  real whole = linear_energy(c, sum) + dot3(r_cross_n_a, symmetric_times(c.inertia_a, r_cross_n_a)) +
                dot3(r_cross_n_b, symmetric_times(c.inertia_b, r_cross_n_b));
   real share = minimum(own / choose(whole > R(0.0), whole, (real)R(1.0)), R(2.0));
   mask pulls = s->impulse[0] + share * change[0] < R(0.0);
   for (uint k = 1; k < 4u; ++k) pulls = pulls | (s->impulse[k] + share * change[k] < R(0.0));
   share = choose(pulls, minimum(share, R(1.0)), share);
   for (uint k = 0; k < 4u; ++k) s->impulse[k] = s->impulse[k] + share * change[k];
-  c.velocity_a.linear =
-      pushed(c.velocity_a.linear, c.locks_a, c.normal, -(c.velocity_a.inverse_mass * (share * sum)));
+  c.velocity_a.linear = pushed(c.velocity_a.linear, c.locks_a, c.normal, -(c.velocity_a.inverse_mass * (share * sum)));
   c.velocity_b.linear = pushed(c.velocity_b.linear, c.locks_b, c.normal, c.velocity_b.inverse_mass * (share * sum));
   return apply_turn(c, r_cross_n_a, r_cross_n_b, share);
 }
 
 /* Makes one pass over the points, where they are after the bodies have moved. */
 SHARED contact solve_normals(GLOBAL const Parameters *parameters, contact c, normal_rows *s, delta_pose moved,
-                             GLOBAL const float4 *constraint_points, uint stride, real slop, uint biased, item_index i)
+                             GLOBAL const float4 *constraint_points, point_planes planes, real slop, uint biased,
+                             item_index i)
 {
   softness soft = softness_of(parameters, c);
   real closed = dot3(c.normal, moved.translation), target_impulse[4];
   for (uint k = 0; k < 4u; ++k) {
-    real started = load_float4(constraint_points, stride * k + i).w;
+    real started = load_arm_of_a(constraint_points, planes, k, i).w;
     real separation =
         started + closed + (dot3(s->r_cross_n_b[k], moved.rotation_b) - dot3(s->r_cross_n_a[k], moved.rotation_a));
     real speed = speed_along(c, c.normal, s->r_cross_n_a[k], s->r_cross_n_b[k]);
@@ -382,8 +380,8 @@ SHARED void keep_highest_impulses(GLOBAL const Parameters *parameters, GLOBAL fl
 /* Solves the contacts of an impact further, after the pass that all contacts get. Everything is loaded once more,
  * because few contacts belong to an impact, and the others need not pay registers for it. */
 SHARED void settle_impact(GLOBAL const Parameters *parameters, read_contacts contacts, read_patches patches,
-                          GLOBAL const float4 *solver_inertia, GLOBAL const float4 *solver_delta_pose, uint stride,
-                          write_contact_impulses contact_impulses, GLOBAL float4 *solver_velocity,
+                          GLOBAL const float4 *solver_inertia, GLOBAL const float4 *solver_delta_pose,
+                          point_planes planes, write_contact_impulses contact_impulses, GLOBAL float4 *solver_velocity,
                           GLOBAL float4 *warm_start_impulse, uint pass, item_index i)
 {
   contact c = load_contact(contacts, solver_velocity, solver_inertia, i);
@@ -391,23 +389,23 @@ SHARED void settle_impact(GLOBAL const Parameters *parameters, read_contacts con
   delta_pose moved = load_delta_pose(solver_delta_pose, c);
   arm_shift shift = shift_of_contact(c, moved.translation);
   vec4 before = load_float4(contact_impulses.normal, i);
-  normal_rows s = load_normal_rows(patches.points, stride, c, shift, before, i);
+  normal_rows s = load_normal_rows(patches.points, planes, c, shift, before, i);
   real slop = load_real(patches.slop, i);
   uint biased = pass == PASS_BIASED ? 1u : 0u;
   for (uint round = 0; round < IMPACT_ROUNDS; ++round)
-    c = solve_normals(parameters, c, &s, moved, patches.points, stride, slop, biased, i);
+    c = solve_normals(parameters, c, &s, moved, patches.points, planes, slop, biased, i);
   vec4 normal_impulses = impulses_of(&s);
   store_float4_if(at_impact, contact_impulses.normal, i, normal_impulses);
   if (HAS_FEATURE(parameters, RESTITUTION))
-    store_float4_if(at_impact, contact_impulses.restitution, stride + i,
-                    highest_impulses(load_float4(contact_impulses.restitution, stride + i), normal_impulses));
+    store_float4_if(at_impact, contact_impulses.restitution, planes.stride + i,
+                    highest_impulses(load_float4(contact_impulses.restitution, planes.stride + i), normal_impulses));
   vec4 changes = make_vec4(normal_impulses.x - before.x, normal_impulses.y - before.y, normal_impulses.z - before.z,
                            normal_impulses.w - before.w);
   c = load_contact(contacts, solver_velocity, solver_inertia, i);
   c = apply_changes(c, &s, changes);
   store_contact_velocities_if(at_impact, solver_velocity, c);
   vec3 center_a = add(xyz(load_float4(patches.center, i)), shift.a),
-       center_b = add(xyz(load_float4(patches.center, stride + i)), shift.b);
+       center_b = add(xyz(load_float4(patches.center, planes.stride + i)), shift.b);
   if (pass == PASS_RELAXING)
     add_warm_start_impulse_if(at_impact, warm_start_impulse, c,
                               wrench_of(c, s, center_a, center_b, load_float4(contact_impulses.friction, i)));
@@ -419,11 +417,11 @@ SHARED void solve_contacts_item(GLOBAL const Parameters *parameters, read_contac
                                 GLOBAL float4 *solver_velocity, GLOBAL float4 *warm_start_impulse, uint pass,
                                 item_index i)
 {
-  uint stride = counts[CAPACITY_PAIRS];
+  point_planes planes = planes_of(counts);
   uint biased = pass == PASS_BIASED ? 1u : 0u;
   contact c = load_contact(contacts, solver_velocity, solver_inertia, i);
   vec4 impulses = load_float4(contact_impulses.normal, i), friction = load_float4(contact_impulses.friction, i);
-  vec4 center_a = load_float4(patches.center, i), center_b = load_float4(patches.center, stride + i);
+  vec4 center_a = load_float4(patches.center, i), center_b = load_float4(patches.center, planes.stride + i);
   delta_pose moved = load_delta_pose(solver_delta_pose, c);
   arm_shift shift = shift_of_contact(c, moved.translation);
   mask rough = c.friction > R(0.0);
@@ -437,18 +435,18 @@ SHARED void solve_contacts_item(GLOBAL const Parameters *parameters, read_contac
   }
 
   real slop = load_real(patches.slop, i);
-  normal_rows s = load_normal_rows(patches.points, stride, c, shift, impulses, i);
-  c = solve_normals(parameters, c, &s, moved, patches.points, stride, slop, biased, i);
+  normal_rows s = load_normal_rows(patches.points, planes, c, shift, impulses, i);
+  c = solve_normals(parameters, c, &s, moved, patches.points, planes, slop, biased, i);
   vec4 normal_impulses = impulses_of(&s);
   store_float4(contact_impulses.normal, i, normal_impulses);
-  keep_highest_impulses(parameters, contact_impulses.restitution, stride, normal_impulses, i);
+  keep_highest_impulses(parameters, contact_impulses.restitution, planes.stride, normal_impulses, i);
   store_contact_velocities(solver_velocity, c);
   mask at_impact = c.follows == R(0.0);
   if (pass == PASS_RELAXING)
     add_warm_start_impulse_if(!at_impact, warm_start_impulse, c,
                               wrench_of(c, s, add(xyz(center_a), shift.a), add(xyz(center_b), shift.b), friction));
   if (any_of(at_impact))
-    settle_impact(parameters, contacts, patches, solver_inertia, solver_delta_pose, stride, contact_impulses,
+    settle_impact(parameters, contacts, patches, solver_inertia, solver_delta_pose, planes, contact_impulses,
                   solver_velocity, warm_start_impulse, pass, i);
 }
 
@@ -462,9 +460,9 @@ SHARED void apply_restitution_item(read_contacts contacts, GLOBAL const float4 *
                                    GLOBAL float4 *constraint_normal_impulse, GLOBAL float4 *solver_velocity,
                                    item_index i)
 {
-  uint stride = counts[CAPACITY_PAIRS];
+  point_planes planes = planes_of(counts);
   vec4 target_velocity = load_float4(constraint_restitution, i),
-       highest = load_float4(constraint_restitution, stride + i);
+       highest = load_float4(constraint_restitution, planes.stride + i);
   mask bounces = (target_velocity.x >= R(0.0)) | (target_velocity.y >= R(0.0)) | (target_velocity.z >= R(0.0)) |
                  (target_velocity.w >= R(0.0));
   if (!any_of(bounces)) return;
@@ -472,7 +470,7 @@ SHARED void apply_restitution_item(read_contacts contacts, GLOBAL const float4 *
   contact before = c;
   vec4 impulses = load_float4(constraint_normal_impulse, i);
   arm_shift shift = load_arm_shift(solver_delta_pose, c);
-  normal_rows s = load_normal_rows(constraint_points, stride, c, shift, impulses, i);
+  normal_rows s = load_normal_rows(constraint_points, planes, c, shift, impulses, i);
   for (uint round = 0; round < RESTITUTION_ROUNDS; ++round) {
     real normal_impulses[4];
     for (uint k = 0; k < 4u; ++k) {

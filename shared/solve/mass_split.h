@@ -63,7 +63,7 @@ SHARED void split_masses_item(read_contacts contacts, read_patches patches, GLOB
                               GLOBAL const uint *split_static_constraints, GLOBAL const uint *counts,
                               GLOBAL float4 *split_mass, item_index i)
 {
-  uint stride = counts[CAPACITY_PAIRS];
+  point_planes planes = planes_of(counts);
   contact c = load_contact(contacts, solver_velocity, solver_inertia, i);
   mask supported = (c.velocity_a.inverse_mass == R(0.0)) | (c.velocity_b.inverse_mass == R(0.0));
   real parts_a = parts_of(body_constraint_start, split_static_constraints, c.a, supported),
@@ -72,14 +72,14 @@ SHARED void split_masses_item(read_contacts contacts, read_patches patches, GLOB
   body_pair parts = bodies_of(c);
   real mass[4];
   for (uint k = 0; k < 4u; ++k) {
-    vec4 point_b = load_float4(patches.points, stride * (k + 4u) + i);
-    real whole = normal_mass(parts, xyz(load_float4(patches.points, stride * k + i)), xyz(point_b), c.normal);
+    vec4 point_b = load_arm_of_b(patches.points, planes, k, i);
+    real whole = normal_mass(parts, xyz(load_arm_of_a(patches.points, planes, k, i)), xyz(point_b), c.normal);
     mass[k] = choose(point_b.w > R(0.0), whole, (real)R(0.0));
   }
-  vec3 center_a = xyz(load_float4(patches.center, i)), center_b = xyz(load_float4(patches.center, stride + i));
+  vec3 center_a = xyz(load_float4(patches.center, i)), center_b = xyz(load_float4(patches.center, planes.stride + i));
   store_float4(split_mass, i, make_vec4(mass[0], mass[1], mass[2], mass[3]));
   store_float4(
-      split_mass, stride + i,
+      split_mass, planes.stride + i,
       make_vec4(friction_mass(parts, center_a, center_b, c.normal), twist_mass(parts, c.normal), parts_a, parts_b));
 }
 
@@ -111,21 +111,21 @@ SHARED void split_warm_start_item(read_contacts contacts, read_patches patches,
                                   GLOBAL const float4 *constraint_friction_impulse, read_solver_bodies solver_bodies,
                                   GLOBAL const uint *counts, GLOBAL float4 *split_impulse, item_index i)
 {
-  uint stride = counts[CAPACITY_PAIRS];
+  point_planes planes = planes_of(counts);
   contact c = load_contact(contacts, solver_bodies.velocity, solver_bodies.inertia, i);
   arm_shift shift = load_arm_shift(solver_bodies.delta, c);
-  normal_rows s = load_normal_rows(patches.points, stride, c, shift, load_float4(constraint_normal_impulse, i), i);
+  normal_rows s = load_normal_rows(patches.points, planes, c, shift, load_float4(constraint_normal_impulse, i), i);
   vec3 center_a = add(xyz(load_float4(patches.center, i)), shift.a),
-       center_b = add(xyz(load_float4(patches.center, stride + i)), shift.b);
+       center_b = add(xyz(load_float4(patches.center, planes.stride + i)), shift.b);
   wrench w = wrench_of(c, s, center_a, center_b, load_float4(constraint_friction_impulse, i));
-  store_wrench(split_impulse, stride, i, w);
+  store_wrench(split_impulse, planes.stride, i, w);
 }
 
 /* The normal rows of a manifold between parts. */
-SHARED normal_rows load_split_normal_rows(GLOBAL const float4 *constraint_points, uint stride, contact c,
+SHARED normal_rows load_split_normal_rows(GLOBAL const float4 *constraint_points, point_planes planes, contact c,
                                           arm_shift shift, vec4 impulses, vec4 masses, item_index i)
 {
-  normal_rows s = load_normal_rows(constraint_points, stride, c, shift, impulses, i);
+  normal_rows s = load_normal_rows(constraint_points, planes, c, shift, impulses, i);
   for (uint k = 0; k < 4u; ++k) s.mass[k] = component(masses, (uint_lanes)k);
   return s;
 }
@@ -213,14 +213,13 @@ SHARED wrench solve_split_friction(split_row *r, mask rough, read_patches patche
 
 /* Solves the points of a manifold together, each toward its own target impulse. */
 SHARED void press_split_points(GLOBAL const Parameters *parameters, split_row *r, normal_rows *s, read_patches patches,
-                               uint stride, uint biased, item_index i)
+                               point_planes planes, uint biased, item_index i)
 {
   softness soft = softness_of(parameters, r->c);
   real slop = load_real(patches.slop, i), leak = soft.impulse_scale, closed = dot3(r->c.normal, r->moved.translation);
   real target_impulse[4];
   for (uint k = 0; k < 4u; ++k) {
-    real started = load_float4(patches.points, stride * k + i).w,
-         whole = load_float4(patches.points, stride * (k + 4u) + i).w;
+    real started = load_arm_of_a(patches.points, planes, k, i).w, whole = load_arm_of_b(patches.points, planes, k, i).w;
     real separation = started + closed +
                       (dot3(s->r_cross_n_b[k], r->moved.rotation_b) - dot3(s->r_cross_n_a[k], r->moved.rotation_a));
     real speed = speed_along(r->c, r->c.normal, s->r_cross_n_a[k], s->r_cross_n_b[k]);
@@ -254,23 +253,23 @@ SHARED void split_solve_item(GLOBAL const Parameters *parameters, read_contacts 
                              item_index i)
 {
   uint biased = pass == PASS_BIASED ? 1u : 0u;
-  uint stride = counts[CAPACITY_PAIRS];
-  split_row r = load_split_row(contacts, split_mass, solver_bodies, stride, momentum, i);
+  point_planes planes = planes_of(counts);
+  split_row r = load_split_row(contacts, split_mass, solver_bodies, planes.stride, momentum, i);
   vec4 impulses = load_float4(contact_impulses.normal, i);
   vec3 none = make_vec3(R(0.0), R(0.0), R(0.0));
   wrench rubbed = {none, none, none};
   mask rough = r.c.friction > R(0.0);
   if (HAS_FEATURE(parameters, FRICTION) && any_of(rough)) {
     real normal_impulse_sum = (impulses.x + impulses.y) + (impulses.z + impulses.w);
-    rubbed = solve_split_friction(&r, rough, patches, stride, normal_impulse_sum, contact_impulses.friction,
+    rubbed = solve_split_friction(&r, rough, patches, planes.stride, normal_impulse_sum, contact_impulses.friction,
                                   iterates.previous_friction, i);
   }
-  normal_rows s = load_split_normal_rows(patches.points, stride, r.c, r.shift, impulses, r.point_masses, i);
-  press_split_points(parameters, &r, &s, patches, stride, biased, i);
-  vec4 next =
-      keep_split_impulses(parameters, impulses_of(&s), momentum, stride, contact_impulses, iterates.previous_normal, i);
+  normal_rows s = load_split_normal_rows(patches.points, planes, r.c, r.shift, impulses, r.point_masses, i);
+  press_split_points(parameters, &r, &s, patches, planes, biased, i);
+  vec4 next = keep_split_impulses(parameters, impulses_of(&s), momentum, planes.stride, contact_impulses,
+                                  iterates.previous_normal, i);
   wrench given = wrench_of_points(r.c, &s, impulses, next);
-  store_wrench(split_impulse, stride, i, choose_wrench(rough, add_wrench(given, rubbed), given));
+  store_wrench(split_impulse, planes.stride, i, choose_wrench(rough, add_wrench(given, rubbed), given));
 }
 
 /* Makes one round of restitution: points that carried an impulse approach their target velocity. */
@@ -279,14 +278,14 @@ SHARED void split_restitution_item(read_contacts contacts, read_patches patches,
                                    read_solver_bodies solver_bodies, GLOBAL const uint *counts,
                                    GLOBAL float4 *constraint_normal_impulse, GLOBAL float4 *split_impulse, item_index i)
 {
-  uint stride = counts[CAPACITY_PAIRS];
+  point_planes planes = planes_of(counts);
   vec4 target_velocity = load_float4(constraint_restitution, i),
-       highest = load_float4(constraint_restitution, stride + i);
-  vec4 masses = load_float4(split_mass, i), other = load_float4(split_mass, stride + i);
+       highest = load_float4(constraint_restitution, planes.stride + i);
+  vec4 masses = load_float4(split_mass, i), other = load_float4(split_mass, planes.stride + i);
   contact c = split_contact(load_contact(contacts, solver_bodies.velocity, solver_bodies.inertia, i), other.z, other.w);
   vec4 impulses = load_float4(constraint_normal_impulse, i);
   normal_rows s =
-      load_split_normal_rows(patches.points, stride, c, load_arm_shift(solver_bodies.delta, c), impulses, masses, i);
+      load_split_normal_rows(patches.points, planes, c, load_arm_shift(solver_bodies.delta, c), impulses, masses, i);
   real normal_impulses[4];
   for (uint k = 0; k < 4u; ++k) {
     real target = component(target_velocity, (uint_lanes)k);
@@ -298,7 +297,7 @@ SHARED void split_restitution_item(read_contacts contacts, read_patches patches,
   c = block_solve_normals(c, &s, normal_impulses);
   vec4 parted = make_vec4(s.impulse[0], s.impulse[1], s.impulse[2], s.impulse[3]);
   store_float4(constraint_normal_impulse, i, parted);
-  store_wrench(split_impulse, stride, i, wrench_of_points(c, &s, impulses, parted));
+  store_wrench(split_impulse, planes.stride, i, wrench_of_points(c, &s, impulses, parted));
 }
 
 typedef struct {

@@ -59,7 +59,7 @@ SHARED void nncg_change_item(GLOBAL const float4 *constraint_points, GLOBAL cons
              energy_of(friction.z - old_friction.z, twist_mass);
   for (uint k = 0; k < 4u; ++k)
     sum = sum + energy_of(component(normal_impulses, (uint_lanes)k) - component(old, (uint_lanes)k),
-                          load_float4(constraint_points, stride * (k + 4u) + i).w);
+                          load_arm_of_b(constraint_points, planes_of(counts), k, i).w);
   store_real(nncg_square, i, sum);
 }
 
@@ -106,7 +106,7 @@ SHARED void nncg_advance_item(read_contacts contacts, read_patches patches, GLOB
 
   contact c = load_contact(contacts, solver_velocity, solver_inertia, i);
   arm_shift shift = load_arm_shift(solver_delta_pose, c);
-  normal_rows s = load_normal_rows(patches.points, stride, c, shift, normal_step, i);
+  normal_rows s = load_normal_rows(patches.points, planes_of(counts), c, shift, normal_step, i);
   vec3 center_a = add(xyz(load_float4(patches.center, i)), shift.a),
        center_b = add(xyz(load_float4(patches.center, stride + i)), shift.b);
   wrench w = wrench_of(c, s, center_a, center_b, friction_step);

@@ -47,7 +47,7 @@ SHARED void pgs_normals_item(GLOBAL const Parameters *parameters, read_contacts 
                              item_index i)
 {
   uint biased = pass == PASS_BIASED ? 1u : 0u;
-  uint stride = counts[CAPACITY_PAIRS];
+  point_planes planes = planes_of(counts);
   contact c = load_contact(contacts, solver_velocity, solver_inertia, i);
   vec4 old = load_float4(constraint_normal_impulse, i);
   delta_pose moved = load_delta_pose(solver_delta_pose, c);
@@ -56,8 +56,7 @@ SHARED void pgs_normals_item(GLOBAL const Parameters *parameters, read_contacts 
   real slop = load_real(patches.slop, i);
   real impulse[4];
   for (uint k = 0; k < 4u; ++k) {
-    vec4 point_a = load_float4(patches.points, stride * k + i),
-         point_b = load_float4(patches.points, stride * (k + 4u) + i);
+    vec4 point_a = load_arm_of_a(patches.points, planes, k, i), point_b = load_arm_of_b(patches.points, planes, k, i);
     vec3 r_cross_n_a = cross3(add(xyz(point_a), shift.a), c.normal),
          r_cross_n_b = cross3(add(xyz(point_b), shift.b), c.normal);
     real separation = point_a.w + closed + (dot3(r_cross_n_b, moved.rotation_b) - dot3(r_cross_n_a, moved.rotation_a));
@@ -69,8 +68,8 @@ SHARED void pgs_normals_item(GLOBAL const Parameters *parameters, read_contacts 
   vec4 normal_impulses = make_vec4(impulse[0], impulse[1], impulse[2], impulse[3]);
   store_float4(constraint_normal_impulse, i, normal_impulses);
   if (HAS_FEATURE(parameters, RESTITUTION))
-    store_float4(constraint_restitution, stride + i,
-                 highest_impulses(load_float4(constraint_restitution, stride + i), normal_impulses));
+    store_float4(constraint_restitution, planes.stride + i,
+                 highest_impulses(load_float4(constraint_restitution, planes.stride + i), normal_impulses));
   store_contact_velocities(solver_velocity, c);
 }
 
@@ -97,21 +96,22 @@ SHARED void pgs_friction_item(read_contacts contacts, GLOBAL const float4 *const
 SHARED void pgs_masses_item(read_contacts contacts, read_solver_bodies solver_bodies, GLOBAL const uint *counts,
                             GLOBAL float4 *constraint_points, GLOBAL float4 *constraint_center, item_index i)
 {
-  uint stride = counts[CAPACITY_PAIRS];
+  point_planes planes = planes_of(counts);
   contact c = load_contact(contacts, solver_bodies.velocity, solver_bodies.inertia, i);
   body_pair bodies = bodies_of(c);
   arm_shift shift = load_arm_shift(solver_bodies.delta, c);
-  for (uint k = 0; k < 4u; ++k) {
-    vec4 point_b = load_float4(constraint_points, stride * (k + 4u) + i);
-    vec3 arm_a = add(xyz(load_float4(constraint_points, stride * k + i)), shift.a), arm_b = add(xyz(point_b), shift.b);
-    real mass = normal_mass(bodies, arm_a, arm_b, c.normal);
-    store_float4(constraint_points, stride * (k + 4u) + i,
-                 extend(xyz(point_b), choose(point_b.w > R(0.0), mass, (real)R(0.0))));
+  for (uint k = 0; k < planes.points; ++k) {
+    vec4 point_a = load_arm_of_a(constraint_points, planes, k, i),
+         point_b = load_arm_of_b(constraint_points, planes, k, i);
+    real mass = normal_mass(bodies, add(xyz(point_a), shift.a), add(xyz(point_b), shift.b), c.normal);
+    store_arm_of_b(constraint_points, planes, k, i,
+                   extend(xyz(point_b), choose(point_b.w > R(0.0), mass, (real)R(0.0))));
   }
-  vec3 center_a = xyz(load_float4(constraint_center, i)), center_b = xyz(load_float4(constraint_center, stride + i));
+  vec3 center_a = xyz(load_float4(constraint_center, i)),
+       center_b = xyz(load_float4(constraint_center, planes.stride + i));
   store_float4(constraint_center, i,
                extend(center_a, friction_mass(bodies, add(center_a, shift.a), add(center_b, shift.b), c.normal)));
-  store_float4(constraint_center, stride + i, extend(center_b, twist_mass(bodies, c.normal)));
+  store_float4(constraint_center, planes.stride + i, extend(center_b, twist_mass(bodies, c.normal)));
 }
 
 #endif

@@ -90,11 +90,11 @@ SHARED void xpbd_prepare_item(GLOBAL const uint *constraint_pair, GLOBAL const u
 
 /* Solves the points of a manifold together, each by the error of its position. */
 SHARED contact xpbd_press(GLOBAL const Parameters *parameters, contact c, normal_rows *s, delta_pose moved,
-                          GLOBAL const float4 *constraint_points, uint stride, item_index i)
+                          GLOBAL const float4 *constraint_points, point_planes planes, item_index i)
 {
   real closed = dot3(c.normal, moved.translation), target_impulse[4];
   for (uint k = 0; k < 4u; ++k) {
-    real separation = load_float4(constraint_points, stride * k + i).w + closed +
+    real separation = load_arm_of_a(constraint_points, planes, k, i).w + closed +
                       (dot3(s->r_cross_n_b[k], moved.rotation_b) - dot3(s->r_cross_n_a[k], moved.rotation_a));
     real wanted = maximum(separation * parameters->inverse_substep, -parameters->push_speed);
     real speed = speed_along(c, c.normal, s->r_cross_n_a[k], s->r_cross_n_b[k]);
@@ -122,7 +122,7 @@ SHARED void xpbd_positions_item(GLOBAL const Parameters *parameters, read_contac
                                 write_contact_impulses contact_impulses, GLOBAL float4 *solver_velocity,
                                 uint first_iteration, item_index i)
 {
-  uint stride = counts[CAPACITY_PAIRS];
+  point_planes planes = planes_of(counts);
   contact c = load_contact(contacts, solver_velocity, solver_inertia, i);
   vec4 impulses = load_float4(contact_impulses.normal, i), friction = load_float4(contact_impulses.friction, i);
   if (first_iteration != 0u) {
@@ -132,14 +132,14 @@ SHARED void xpbd_positions_item(GLOBAL const Parameters *parameters, read_contac
   }
   delta_pose moved = load_delta_pose(solver_delta_pose, c);
   arm_shift shift = shift_of_contact(c, moved.translation);
-  normal_rows s = load_normal_rows(patches.points, stride, c, shift, impulses, i);
-  c = xpbd_press(parameters, c, &s, moved, patches.points, stride, i);
+  normal_rows s = load_normal_rows(patches.points, planes, c, shift, impulses, i);
+  c = xpbd_press(parameters, c, &s, moved, patches.points, planes, i);
   vec4 normal_impulses = impulses_of(&s);
   store_float4(contact_impulses.normal, i, normal_impulses);
-  keep_highest_impulses(parameters, contact_impulses.restitution, stride, normal_impulses, i);
+  keep_highest_impulses(parameters, contact_impulses.restitution, planes.stride, normal_impulses, i);
   mask rough = c.friction > R(0.0);
   if (HAS_FEATURE(parameters, FRICTION) && any_of(rough)) {
-    solved held = xpbd_hold(parameters, c, moved, shift, patches, stride, load_float4(constraint_slip, i),
+    solved held = xpbd_hold(parameters, c, moved, shift, patches, planes.stride, load_float4(constraint_slip, i),
                             limit_of(c, normal_impulses), friction, i);
     c = with_velocities_if(rough, c, held.c);
     store_float4_if(rough, contact_impulses.friction, i, held.impulse);
@@ -155,7 +155,7 @@ SHARED void xpbd_velocities_item(GLOBAL const Parameters *parameters, read_conta
                                  GLOBAL float4 *constraint_friction_impulse, GLOBAL float4 *solver_velocity,
                                  item_index i)
 {
-  uint stride = counts[CAPACITY_PAIRS];
+  point_planes planes = planes_of(counts);
   contact c = load_contact(contacts, solver_velocity, solver_inertia, i);
   vec4 impulses = load_float4(constraint_normal_impulse, i);
   mask pressing = (impulses.x > R(0.0)) | (impulses.y > R(0.0)) | (impulses.z > R(0.0)) | (impulses.w > R(0.0));
@@ -163,7 +163,7 @@ SHARED void xpbd_velocities_item(GLOBAL const Parameters *parameters, read_conta
   contact before = c;
   delta_pose moved = load_delta_pose(solver_delta_pose, c);
   arm_shift shift = shift_of_contact(c, moved.translation);
-  normal_rows s = load_normal_rows(patches.points, stride, c, shift, impulses, i);
+  normal_rows s = load_normal_rows(patches.points, planes, c, shift, impulses, i);
   real target_impulse[4];
   for (uint k = 0; k < 4u; ++k) {
     real resting =
@@ -174,7 +174,7 @@ SHARED void xpbd_velocities_item(GLOBAL const Parameters *parameters, read_conta
   store_float4_if(pressing, constraint_normal_impulse, i, impulses_of(&s));
   mask rough = pressing & (c.friction > R(0.0));
   if (HAS_FEATURE(parameters, FRICTION) && any_of(rough)) {
-    vec4 center_a = load_float4(patches.center, i), center_b = load_float4(patches.center, stride + i);
+    vec4 center_a = load_float4(patches.center, i), center_b = load_float4(patches.center, planes.stride + i);
     vec3 arm_a = add(xyz(center_a), shift.a), arm_b = add(xyz(center_b), shift.b);
     real limit = limit_of(c, impulses_of(&s));
     solved held = xpbd_twist(c, spin_between(c), center_b.w, limit, load_float4(constraint_friction_impulse, i));

@@ -63,7 +63,7 @@ private:
     const auto a = memory.read<uint32_t>(Buffer::pair_a, n), b = memory.read<uint32_t>(Buffer::pair_b, n);
     const auto points = memory.read<uint32_t>(Buffer::manifold_count, n);
     const auto normals = memory.read<float4>(Buffer::manifold_normal, n);
-    const auto rows = memory.read<float4>(Buffer::manifold_points, 4 * counts[CAPACITY_PAIRS]);
+    const auto rows = memory.read<float4>(Buffer::manifold_points, counts[CAPACITY_POINTS] * counts[CAPACITY_PAIRS]);
     const std::vector<BodyState> states = world_.bodies(); /* where the step started: nothing is committed yet */
     for (uint32_t i = 0; i < n; ++i) {
       const uint32_t first = world_.scene_body(a[i]), second = world_.scene_body(b[i]);

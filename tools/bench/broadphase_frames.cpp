@@ -37,6 +37,7 @@ BroadphaseFrames::BroadphaseFrames(const MovingBodies &bodies, const BroadphaseR
   plan_.bodies = static_cast<uint32_t>(bodies.scene.bodies.size());
   plan_.capacity_cells = cells_for(plan_.bodies);
   plan_.capacity_pairs = pairs ? pairs : 5 * plan_.bodies + 1024;
+  plan_.capacity_candidates = plan_.capacity_pairs;
   record_kernels();
   allocate();
   upload();
@@ -63,6 +64,7 @@ void BroadphaseFrames::allocate()
                     .trees = {},
                     .pairs = plan_.capacity_pairs,
                     .cells = plan_.capacity_cells,
+                    .candidates = plan_.capacity_candidates,
                     .features = plan_.features};
   for (size_t k = 0; k < buffer_count; ++k)
     if (touched_[k]) memory_.resize(buffer_at(k), bytes_of(buffer_at(k), sizes));
@@ -81,6 +83,7 @@ void BroadphaseFrames::upload()
     counts[entry] = value;
   counts[CAPACITY_PAIRS] = plan_.capacity_pairs;
   counts[CAPACITY_CELLS] = plan_.capacity_cells;
+  counts[CAPACITY_CANDIDATES] = plan_.capacity_candidates;
   memory_.upload(Buffer::counts, counts.data(), counts.size() * sizeof(uint32_t));
 }
 
@@ -98,9 +101,9 @@ double BroadphaseFrames::run(uint32_t frame)
   move_bodies(frame);
   for (int repetition = 0; repetition < most_repetitions; ++repetition) {
     const double milliseconds = find_pairs();
-    const uint32_t needed = plan_.known[COUNT_PAIRS_NEEDED];
-    if (needed <= plan_.capacity_pairs) return milliseconds;
-    grow(needed);
+    const uint32_t pairs = plan_.known[COUNT_PAIRS_NEEDED], candidates = plan_.known[COUNT_CANDIDATES_NEEDED];
+    if (pairs <= plan_.capacity_pairs && candidates <= plan_.capacity_candidates) return milliseconds;
+    grow(pairs, candidates);
   }
   throw std::runtime_error(
       fmt::format("{}: frame {} found more pairs each time that it ran again", broadphase_.name, frame));
@@ -125,12 +128,14 @@ double BroadphaseFrames::find_pairs()
   return milliseconds;
 }
 
-void BroadphaseFrames::grow(uint32_t needed)
+void BroadphaseFrames::grow(uint32_t pairs, uint32_t candidates)
 {
-  plan_.capacity_pairs = needed + needed / 4;
+  plan_.capacity_pairs = std::max(plan_.capacity_pairs, pairs + pairs / 8);
+  plan_.capacity_candidates = std::max(plan_.capacity_candidates, candidates + candidates / 8);
   record_kernels(); /* longer scans and sorts need other kernels */
   allocate();
-  memory_.upload(Buffer::counts, &plan_.capacity_pairs, sizeof(uint32_t), CAPACITY_PAIRS * sizeof(uint32_t));
+  set_count(memory_, CAPACITY_PAIRS, plan_.capacity_pairs);
+  set_count(memory_, CAPACITY_CANDIDATES, plan_.capacity_candidates);
   forget_kept(memory_);
   guess_counts();
 }

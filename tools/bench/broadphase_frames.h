@@ -38,7 +38,7 @@ private:
   void guess_counts();
   void move_bodies(uint32_t frame);
   double find_pairs();
-  void grow(uint32_t needed);
+  void grow(uint32_t pairs, uint32_t candidates);
 
   const MovingBodies &bodies_;
   const BroadphaseRow &broadphase_;

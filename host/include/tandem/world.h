@@ -374,6 +374,14 @@ public:
    * same without it. If the driver fails to build it, throws std::runtime_error and changes nothing. The end of a world
    * waits for what is being built, up to some ten seconds. */
   void prepare_kernels();
+  /* Makes room for so many pairs of bodies whose bounds overlap. A world begins with room for two a body and makes more
+   * when a step needs it, which then takes several times as long, so reserve what a scene will need if no frame may be
+   * late: a settled pile has four to five pairs a body, some 300 bytes each. InputError: more than Settings::max_pairs.
+   * OutOfMemory: the world is as it was. Neither this nor the next call changes any motion; after both, contacts and
+   * events of the last step are no longer listed. */
+  void reserve_pairs(uint32_t pairs);
+  /* Gives back the room for pairs beyond those of the last step and of states that were kept, and an eighth more. */
+  void shrink_to_fit();
   /* Measures each kernel, which therefore has launches of its own. */
   void set_profiling(bool on);
   std::vector<KernelTime> take_kernel_times();

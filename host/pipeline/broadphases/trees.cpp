@@ -9,7 +9,6 @@
 #include "host/pipeline/broadphases/broadphase.h"
 #include "host/pipeline/layout.h"
 #include "host/pipeline/primitives.h"
-#include "shared/broadphase/candidate_limits.h"
 #include "shared/broadphase/curve_limits.h"
 
 namespace tandem {
@@ -35,7 +34,7 @@ void find_new_pairs(StepLaunches &step)
   step.run(Kernel::count_candidate_keys);
   step.run_at_most(Kernel::candidate_write, plan.bodies);
   sort_pair_keys(step, Buffer::candidate_key, Buffer::candidate_key_other, COUNT_CANDIDATE_KEYS,
-                 CANDIDATES_PER_PAIR * plan.capacity_pairs);
+                 plan.capacity_candidates);
 }
 
 void merge_new_pairs(StepLaunches &step)

@@ -91,7 +91,7 @@ struct Rows {
     read_indices(memory, Buffer::constraint_a, count, stride, a);
     read_indices(memory, Buffer::constraint_b, count, stride, b);
     read_planes(memory, Buffer::constraint_normal, 1, count, stride, normal);
-    read_planes(memory, Buffer::constraint_points, 8, count, stride, points);
+    read_points(memory, counts[CAPACITY_POINTS]);
     read_planes(memory, Buffer::constraint_center, 2, count, stride, center);
     read_planes(memory, Buffer::constraint_normal_impulse, 1, count, stride, normal_impulse);
     read_planes(memory, Buffer::constraint_friction_impulse, 1, count, stride, friction_impulse);
@@ -101,6 +101,19 @@ struct Rows {
     read_planes(memory, Buffer::solver_delta_pose, 1, body_rows, body_rows, delta);
     read_reals(memory, Buffer::constraint_slop, count, stride, slop);
     if (bounces()) read_planes(memory, Buffer::constraint_restitution, 2, count, stride, restitution);
+  }
+
+  /* Points without a plane are zeros (shared/point_rows.h). */
+  void read_points(Memory &memory, size_t planes)
+  {
+    read_planes(memory, Buffer::constraint_points, 2 * planes, count, stride, points);
+    make_room(points, 8 * size_t{stride});
+    points.resize(8 * size_t{count});
+    if (planes == 4) return;
+    const auto arms_of_b = points.begin() + 4 * static_cast<ptrdiff_t>(count);
+    std::copy_n(points.begin() + count, count, arms_of_b);
+    std::fill(points.begin() + count, arms_of_b, float4{});
+    std::fill(arms_of_b + count, points.end(), float4{});
   }
 
   bool bounces() const { return HAS_FEATURE(&parameters, RESTITUTION); }
@@ -339,8 +352,9 @@ void Island::add_constraint(uint32_t i)
   const delta_pose moved = load_delta_pose(rows_.delta.data(), c);
   const arm_shift shift = shift_of_contact(c, moved.translation);
   const float4 old = rows_.normal_impulse[i];
+  const point_planes planes{rows_.count, 4};
   const normal_rows s =
-      load_normal_rows(rows_.points.data(), rows_.count, c, shift, make_vec4(old.x, old.y, old.z, old.w), i);
+      load_normal_rows(rows_.points.data(), planes, c, shift, make_vec4(old.x, old.y, old.z, old.w), i);
   ManifoldRows manifold;
   manifold.first = static_cast<uint32_t>(list_.size());
   add_normals(i, c, s, moved);

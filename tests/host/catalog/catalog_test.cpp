@@ -267,7 +267,9 @@ TEST_CASE("bad specifications are refused with what exists")
   CHECK_THAT(complaint("box-grid:=3"), ContainsSubstring("is not key=value"));
   CHECK_THAT(complaint("box-grid:nx=3,"), ContainsSubstring("'' is not key=value"));
   CHECK_THAT(complaint("box-grid:nx=3,nx=4"), ContainsSubstring("given twice"));
-  CHECK_THAT(complaint("box-grid:nx=360,ny=10000,nz=360"), ContainsSubstring("1296000001 bodies; at most 4000000"));
+  CHECK_THAT(complaint("box-grid:nx=360,ny=10000,nz=360"), ContainsSubstring("1296000001 bodies; at most 64000000"));
+  CHECK_NOTHROW(check_bodies("spheres", 10, 20 * sizeof(Body)));
+  CHECK_THROWS_WITH(check_bodies("spheres", 11, 20 * sizeof(Body)), ContainsSubstring("at most 10 are possible"));
   CHECK_THAT(complaint("missing/scene.json"), ContainsSubstring("missing/scene.json: cannot read: No such file"));
   CHECK_THAT(complaint("missing/scene.gltf"), ContainsSubstring("cannot read"));
 }

@@ -91,7 +91,7 @@ public:
     last_.clear();
     for (const auto &[entry, value] : entries_of({boxes.size(), boxes.unbounded, boxes.large})) counts_[entry] = value;
     counts_[CAPACITY_CELLS] = plan_.capacity_cells;
-    reserve(1000);
+    reserve(1000, 1000);
     Parameters parameters{};
     parameters.hybrid_cell = boxes.hybrid_cell;
     parameters.step = 1;
@@ -122,9 +122,10 @@ public:
     for (;;) {
       broadphase.launch(step_);
       const auto after = memory_.read<uint32_t>(Buffer::counts, COUNT_TOTAL);
-      if (after[COUNT_PAIRS_NEEDED] > plan_.capacity_pairs) {
-        check_clamped(after[COUNT_PAIRS], broadphase);
-        reserve(after[COUNT_PAIRS_NEEDED]);
+      const uint32_t needed = after[COUNT_PAIRS_NEEDED], candidates = after[COUNT_CANDIDATES_NEEDED];
+      if (needed > plan_.capacity_pairs || candidates > plan_.capacity_candidates) {
+        if (needed > plan_.capacity_pairs) check_clamped(after[COUNT_PAIRS], broadphase);
+        reserve(std::max(plan_.capacity_pairs, needed), std::max(plan_.capacity_candidates, candidates));
         continue;
       }
       check_starts(after[COUNT_PAIRS]);
@@ -133,15 +134,17 @@ public:
   }
 
 private:
-  void reserve(uint32_t pairs)
+  void reserve(uint32_t pairs, uint32_t candidates)
   {
     plan_.capacity_pairs = counts_[CAPACITY_PAIRS] = pairs;
+    plan_.capacity_candidates = counts_[CAPACITY_CANDIDATES] = candidates;
     const Sizes sizes{.bodies = plan_.bodies,
                       .materials = 1,
                       .hulls = {},
                       .trees = {},
                       .pairs = pairs,
                       .cells = plan_.capacity_cells,
+                      .candidates = candidates,
                       .features = FEATURE_FILTER};
     for (size_t b = 0; b < buffer_count; ++b) {
       const bool wanted = buffer_at(b) <= Buffer::pair_key_other;

@@ -79,6 +79,7 @@ TEST_CASE("each run of entries of one pair has one event, and the events are tho
     for (uint a = 0; a < bodies; ++a) positions[2 * a] = {100.0f * float(a), 0, 0, 0};
     std::vector<uint> counts(COUNT_TOTAL), starts(bodies), codes(4 * (pairs + before.b.size()));
     counts[CAPACITY_PAIRS] = uint(pairs);
+    counts[CAPACITY_POINTS] = 4;
     const read_touching_pairs touching{now.start.data(), now.b.data(), now.touching.data()};
     const read_cached_touching_pairs touched{before.start.data(), before.b.data(), before.touching.data()};
     const read_manifolds manifolds{now.normal.data(), points.data(), now.points.data(), nullptr};

@@ -107,6 +107,7 @@ public:
     counts_.assign(COUNT_TOTAL, 0);
     counts_[COUNT_PAIRS] = static_cast<uint32_t>(pairs);
     counts_[CAPACITY_PAIRS] = static_cast<uint32_t>(capacity);
+    counts_[CAPACITY_POINTS] = 4;
     list();
     Outputs outputs;
     float4 unwritten;

@@ -1,0 +1,118 @@
+/* Room for pairs can be reserved and given back, and neither changes a bit. */
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <tandem/error.h>
+#include <tandem/world.h>
+
+#include "host/base/random.h"
+#include "host/runtime/memory.h"
+#include "tests/catch.h"
+#include "tests/host/runtime/opencl/pocl.h"
+
+namespace tandem {
+namespace {
+
+using Catch::Matchers::ContainsSubstring;
+
+/* Balls around one point, which burst apart: 4,950 pairs at first, and none in the end. */
+Scene burst(uint32_t balls)
+{
+  Scene scene;
+  scene.shapes = {sphere_shape(0.5f)};
+  Random random(7);
+  for (uint32_t i = 0; i < balls; ++i) {
+    Body ball;
+    const double x = random.uniform(-1, 1), y = random.uniform(-1, 1), z = random.uniform(-1, 1);
+    ball.position = {0.01 * x, 0.01 * y, 0.01 * z};
+    ball.linear_velocity = {float(60 * x), float(60 * y), float(60 * z)};
+    scene.bodies.push_back(ball);
+  }
+  return scene;
+}
+
+constexpr uint32_t balls = 100, all_pairs = balls * (balls - 1) / 2;
+constexpr int steps = 40;
+
+std::vector<std::string> backends()
+{
+  std::vector<std::string> names{"serial", "tbb"};
+  parity::add_pocl(names);
+  return names;
+}
+
+uint64_t hash_after(World &world, int count)
+{
+  for (int i = 0; i < count; ++i) world.step();
+  return world.state_hash();
+}
+
+TEST_CASE("a step for whose pairs room was reserved does not run again, and has the same bits")
+{
+  for (const std::string &name : backends()) {
+    World plain(burst(balls), {}, {name, {}}), ready(burst(balls), {}, {name, {}});
+    ready.reserve_pairs(all_pairs);
+    CHECK(hash_after(plain, 1) == hash_after(ready, 1));
+    CHECK(plain.statistics().pairs == all_pairs);
+    CHECK(plain.statistics().overflow > 0);
+    CHECK(ready.statistics().overflow == 0);
+  }
+}
+
+TEST_CASE("room that is reserved between steps keeps the cache of contacts")
+{
+  World plain(burst(balls)), other(burst(balls));
+  CHECK(hash_after(plain, 5) == hash_after(other, 5));
+  other.reserve_pairs(3 * all_pairs);
+  CHECK(other.state_hash() == plain.state_hash());
+  CHECK(hash_after(plain, 5) == hash_after(other, 5));
+}
+
+TEST_CASE("room that is given back frees most of the memory, and the world goes on with the same bits")
+{
+  Settings settings;
+  settings.events = true;
+  for (const std::string &name : backends()) {
+    World plain(burst(balls), settings, {name, {}}), other(burst(balls), settings, {name, {}});
+    CHECK(hash_after(plain, steps) == hash_after(other, steps));
+    REQUIRE(plain.statistics().pairs < all_pairs / 10);
+    const size_t before = other.memory().total_bytes();
+    other.shrink_to_fit();
+    CHECK(other.memory().total_bytes() < before / 2);
+    CHECK(other.contact_events().empty());
+    CHECK(other.statistics().contacts == 0);
+    CHECK(other.state_hash() == plain.state_hash());
+    CHECK(hash_after(plain, 10) == hash_after(other, 10));
+  }
+}
+
+TEST_CASE("states that were kept fit into a world that gave room back")
+{
+  World world(burst(balls));
+  world.keep_states(3, false);
+  world.step();
+  const uint64_t early = world.state_hash();
+  world.keep_state();
+  hash_after(world, steps);
+  world.shrink_to_fit();
+  world.go_back(0);
+  CHECK(world.state_hash() == early);
+  const uint64_t again = hash_after(world, 3);
+  World other(burst(balls));
+  CHECK(hash_after(other, 4) == again);
+}
+
+TEST_CASE("no more room can be reserved than the settings allow")
+{
+  Settings settings;
+  settings.max_pairs = 5000;
+  World world(burst(balls), settings);
+  CHECK_THROWS_WITH(world.reserve_pairs(5001), ContainsSubstring("5001 pairs; 5000 are the most"));
+  world.reserve_pairs(5000);
+  hash_after(world, 1);
+  CHECK(world.statistics().pairs == all_pairs);
+}
+
+} // namespace
+} // namespace tandem
