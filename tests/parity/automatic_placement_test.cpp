@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "host/runtime/interface/faults.h"
 #include "tests/parity/parity.h"
 
 using namespace tandem;
@@ -99,6 +100,23 @@ TEST_CASE("automatic placement: without a device all runs on the CPU, and what t
   Placement inexact = automatic_on("tbb", {});
   inexact.allow_inexact = true;
   CHECK_THROWS_AS(cpu.place(inexact), InputError);
+}
+
+TEST_CASE("automatic placement: where a device cannot build the kernels, the CPU goes on and the report says why")
+{
+  require_pocl();
+  const Scene scene = load_scene("box-stack:n=10");
+  faults::hook = [](faults::Site site) { return site == faults::Site::build; };
+  World world(scene, {}, automatic_on("cl:pocl", {}));
+  settle(world);
+  faults::hook = nullptr;
+  const PlacementReport report = world.placement_report();
+  CAPTURE(report.why);
+  CHECK(report.on == "tbb");
+  CHECK(report.why.find("kernel") != std::string::npos);
+  while (world.statistics().steps < 20) world.step();
+  CHECK(backends_of(world) == std::vector<std::string>{"tbb"});
+  CHECK(world.state_hash() == state_after("box-stack:n=10", "serial", 20));
 }
 
 namespace {
