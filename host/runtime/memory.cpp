@@ -30,6 +30,7 @@ void Memory::release(Entry &entry) noexcept
 {
   for (auto copy = entry.copies.rbegin(); copy != entry.copies.rend(); ++copy) copy->storage->release(copy->handle);
   entry.copies.clear();
+  entry.forgotten = false;
 }
 
 void Memory::resize(Buffer buffer, size_t bytes)
@@ -193,11 +194,6 @@ void Memory::make_valid(Buffer buffer, Storage &target, UsedParts *used)
   copy.valid = true;
 }
 
-void Memory::forget_contents(Buffer buffer)
-{
-  for (Copy &copy : entries_[index_of(buffer)].copies) copy.valid = true;
-}
-
 /* A device may still be reading bytes that it shares with the storage that is about to write them. */
 void Memory::wait_for_readers(Entry &entry, Storage &writer)
 {
@@ -209,8 +205,10 @@ void Memory::wait_for_readers(Entry &entry, Storage &writer)
 void *Memory::acquire(Buffer buffer, Storage &storage, Access access, UsedParts *used)
 {
   Entry &entry = entries_[index_of(buffer)];
+  const bool forgotten = std::exchange(entry.forgotten, entry.forgotten && access == Access::in);
   if (entry.copies.size() == 1 && entry.copies[0].storage == &storage && entry.copies[0].valid) /* nearly always */
     return entry.copies[0].handle;
+  if (forgotten) copy_in(entry, storage).valid = true;
   make_valid(buffer, storage, used);
   Copy &copy = copy_in(entry, storage);
   if (access == Access::in) return copy.handle;
@@ -237,6 +235,7 @@ void Memory::upload(Buffer buffer, const void *from, size_t bytes, size_t offset
   if (bytes == 0) return;
   uploaded_bytes_ += bytes;
   Entry &entry = entries_[index_of(buffer)];
+  entry.forgotten = false;
   Copy *device = valid_on_device(entry);
   if (!device) {
     char *host = static_cast<char *>(acquire(buffer, host_storage(), Access::inout));
@@ -320,6 +319,7 @@ void Memory::put_back(Buffer buffer, const KeptBytes &kept)
   Entry &entry = entries_[index_of(buffer)];
   Copy &target = copy_in(entry, *kept.storage_);
   wait_for_readers(entry, *kept.storage_);
+  entry.forgotten = false;
   copy_within(*kept.storage_, kept.handle_, target.handle, kept.bytes_);
   for (Copy &copy : entry.copies) copy.valid = &copy == &target;
 }
@@ -359,6 +359,7 @@ void Memory::write_reals(Buffer buffer, const double *from, size_t count, size_t
     std::transform(from, from + count, rounded_.begin(), [](double x) { return round_to_float(x); });
     return upload(buffer, rounded_.data(), count * sizeof(float), first * sizeof(float));
   }
+  entry.forgotten = false;
   wide.storage->write_reals(wide.handle, first, from, count);
   for (Copy &other : entry.copies) other.valid = &other == &wide;
 }

@@ -101,7 +101,7 @@ public:
    * unchanged. What moves is what `used` says, or all of it: the bytes behind a part that moved are undefined. */
   void *acquire(Buffer buffer, Storage &storage, Access access, UsedParts *used = nullptr);
   /* Nothing reads what the buffer holds until it is written again, so that it need not move. */
-  void forget_contents(Buffer buffer);
+  void forget_contents(Buffer buffer) { entries_[index_of(buffer)].forgotten = true; }
   const Moves &moves() const { return moves_; }
   UsedPart whole(Buffer buffer) const { return {bytes(buffer), 1}; }
 
@@ -137,6 +137,7 @@ private:
     Element element;
     size_t bytes = 0;
     std::vector<Copy> copies;
+    bool forgotten = false; /* nothing reads the contents before they are written */
   };
   Copy &copy_in(Entry &entry, Storage &storage);
   void *allocate(const Entry &entry, size_t bytes, Storage &storage, void *host_memory);

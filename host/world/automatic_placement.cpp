@@ -86,7 +86,7 @@ void AutomaticPlacement::begin_step(PlacedBackends &backends, bool observed)
 {
   began_.reset();
   if (observed || backends.is_waiting() || backends.is_profiling() || placed_ != choice_.next()) return;
-  if (!choice_.is_settled()) backends.finish();
+  if (!choice_.is_settled()) backends.finish_launches();
   profiles_ = choice_.profiles_next();
   if (profiles_) backends.set_profiling(true);
   began_ = now();
@@ -96,7 +96,7 @@ void AutomaticPlacement::begin_step(PlacedBackends &backends, bool observed)
 void AutomaticPlacement::end_step(PlacedBackends &backends, const Scene &scene)
 {
   if (!began_) return;
-  if (!choice_.is_settled()) backends.finish();
+  if (!choice_.is_settled()) backends.finish_launches();
   const double milliseconds = now() - *began_;
   if (profiles_) take_stage_times(backends, choice_.next());
   if (!backends.is_waiting())

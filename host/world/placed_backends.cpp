@@ -56,6 +56,15 @@ void PlacedBackends::finish()
   for (const auto &[text, backend] : backends_) backend->finish();
 }
 
+void PlacedBackends::finish_launches()
+{
+  for (const auto &[text, backend] : backends_) {
+    uint64_t &finished = finished_[backend.get()];
+    if (finished != backend->launches) backend->finish();
+    finished = backend->launches;
+  }
+}
+
 std::map<Backend *, std::vector<Kernel>> PlacedBackends::by_backend(const Placement &placement,
                                                                     const std::vector<Kernel> &kernels)
 {

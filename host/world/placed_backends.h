@@ -41,6 +41,8 @@ public:
   /* Ignores failures, because they were reported when they occurred and a destructor cannot report them. */
   void finish_at_last() noexcept;
   void finish();
+  /* The same for those that have launched something since; others may still copy states that are kept. */
+  void finish_launches();
   void set_profiling(bool on);
   bool is_profiling() const { return profiling_; }
   std::vector<KernelTime> take_kernel_times();
@@ -58,6 +60,7 @@ private:
   Placement wanted_;
   Features features_;
   std::map<std::string, std::shared_ptr<Backend>> backends_; /* by the text that names them */
+  std::map<const Backend *, uint64_t> finished_;             /* launches of each by the last finish */
   std::vector<Backend *> placed_;                            /* by the kernel's number */
   bool profiling_ = false;                                   /* also of backends made later */
   bool waiting_ = false;
