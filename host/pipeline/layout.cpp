@@ -68,21 +68,13 @@ size_t items_of(Capacity capacity, const Sizes &sizes)
 }
 #pragma GCC diagnostic pop
 
-/* buffers.def counts the planes of all points that a pair can have. */
-uint32_t elements_of_item(Buffer buffer, const Sizes &sizes)
-{
-  const uint32_t elements = row_of(buffer).per_item;
-  const bool has_planes = buffer == Buffer::manifold_points || buffer == Buffer::constraint_points;
-  return has_planes ? elements / most_points_of_pair * points_of_pair(sizes.features) : elements;
-}
-
 } // namespace
 
 size_t bytes_of(Buffer buffer, const Sizes &sizes)
 {
   const BufferRow &row = row_of(buffer);
   if (row.feature != 0 && (row.feature & sizes.features) == 0) return 0;
-  return items_of(row.capacity, sizes) * elements_of_item(buffer, sizes) * size_of(row.element);
+  return items_of(row.capacity, sizes) * elements_of_item(buffer, sizes.features) * size_of(row.element);
 }
 
 void check_size(Buffer buffer, const Sizes &sizes)
@@ -98,6 +90,13 @@ void check_size(Buffer buffer, const Sizes &sizes)
 uint32_t points_of_pair(Features features)
 {
   return (features & FEATURE_SEVERAL_POINTS) != 0 ? most_points_of_pair : 1;
+}
+
+uint32_t elements_of_item(Buffer buffer, Features features)
+{
+  const uint32_t elements = row_of(buffer).per_item;
+  const bool has_planes = buffer == Buffer::manifold_points || buffer == Buffer::constraint_points;
+  return has_planes ? elements / most_points_of_pair * points_of_pair(features) : elements;
 }
 
 uint32_t leaves_for(uint32_t bodies) { return std::bit_ceil(std::max(bodies, 1u)); }

@@ -31,6 +31,8 @@ void check_size(Buffer buffer, const Sizes &sizes);
 
 /* The most contact points of a pair, each with planes of its own (shared/point_rows.h). */
 uint32_t points_of_pair(Features features);
+/* Elements of a buffer for each of its items; buffers.def counts the planes of all points that a pair can have. */
+uint32_t elements_of_item(Buffer buffer, Features features);
 
 /* The number of leaves of a hierarchy of so many bodies, a power of two. */
 uint32_t leaves_for(uint32_t bodies);

@@ -43,6 +43,8 @@ void PlacedLauncher::bind(const Launch &launch, Storage &storage, std::vector<Bo
   const KernelRow &row = row_of(launch.kernel);
   bound.clear();
   size_t slot = 0, value = 0;
+  LaunchParts *const parts = observer_ ? nullptr : parts_;
+  if (parts) parts->begin_launch(launch);
   for (const Argument &argument : row.arguments) {
     if (argument.kind == Argument::Kind::value) {
       bound.push_back({nullptr, launch.values.at(value++)});
@@ -50,7 +52,7 @@ void PlacedLauncher::bind(const Launch &launch, Storage &storage, std::vector<Bo
     }
     const Buffer buffer = argument.kind == Argument::Kind::slot ? launch.slots.at(slot++) : argument.buffer;
     if (argument.access != Access::in) note_written(buffer);
-    bound.push_back({memory_.acquire(buffer, storage, access_of(buffer, argument.access)), 0});
+    bound.push_back({memory_.acquire(buffer, storage, access_of(buffer, argument.access), parts), 0});
   }
   if (slot != launch.slots.size() || value != launch.values.size())
     throw std::logic_error(std::string("launch of ") + row.name + " does not fit its row in kernels.def");

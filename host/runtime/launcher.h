@@ -27,6 +27,12 @@ public:
   virtual size_t bytes(Buffer) const { return SIZE_MAX; }
 };
 
+/* Is told of each launch before its buffers move. */
+class TANDEM_API LaunchParts : public UsedParts {
+public:
+  virtual void begin_launch(const Launch &launch) = 0;
+};
+
 class TANDEM_API PlacedLauncher : public Launcher {
 public:
   using Choice = std::function<Backend &(Kernel)>;
@@ -51,6 +57,9 @@ public:
   void set_on_commit(std::function<void()> on_commit) { on_commit_ = std::move(on_commit); }
   /* While some bodies sleep, launches leave their rows of STATE buffers as they are, wherever they are placed. */
   void set_keeps_sleepers(bool on) { keeps_sleepers_ = on; }
+  /* Of buffers that move, launches move these parts; null: all of them. An observer compares whole buffers, so while
+   * there is one they move whole. */
+  void set_parts(LaunchParts *parts) { parts_ = parts; }
   void set_step(uint64_t step) { step_ = step; } /* for debuggers: host/runtime/interface/debug.h */
 
 private:
@@ -72,6 +81,7 @@ private:
   std::vector<BoundLaunch> collected_; /* the first collected_count_ wait for collecting_backend_ */
   size_t collected_count_ = 0;
   Backend *collecting_backend_ = nullptr;
+  LaunchParts *parts_ = nullptr;
   std::vector<BoundArgument> bound_;
   std::vector<Buffer> written_;
 };

@@ -2,6 +2,7 @@
 #include "host/runtime/memory.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cstring>
 #include <new>
 
@@ -29,6 +30,7 @@ void Memory::release(Entry &entry) noexcept
 {
   for (auto copy = entry.copies.rbegin(); copy != entry.copies.rend(); ++copy) copy->storage->release(copy->handle);
   entry.copies.clear();
+  entry.forgotten = false;
 }
 
 void Memory::resize(Buffer buffer, size_t bytes)
@@ -104,26 +106,71 @@ Memory::Copy &Memory::copy_in(Entry &entry, Storage &storage)
   return *entry.copies.insert(place, fresh);
 }
 
-/* Bytes move between two devices through the host's copy. A third device may still be reading the old bytes there, so
- * it is waited for. */
-void Memory::make_valid(Entry &entry, Copy &wanted)
+namespace {
+
+/* Calls move(offset, bytes) for the part in each plane of a buffer of so many bytes. */
+template <class Move> void for_each_plane(size_t bytes, const UsedPart &part, Move move)
 {
-  if (wanted.valid) return;
-  Storage *target = wanted.storage;
+  for (size_t plane = 0; plane < part.planes; ++plane)
+    if (part.bytes > 0) move(plane * (bytes / part.planes), part.bytes);
+}
+
+double milliseconds_since(std::chrono::steady_clock::time_point start)
+{
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+void count_move(Moves &moves, const UsedPart &part, std::chrono::steady_clock::time_point start)
+{
+  moves.bytes += part.planes * part.bytes;
+  ++moves.buffers;
+  moves.milliseconds += milliseconds_since(start);
+}
+
+} // namespace
+
+/* A third device may still be reading the old bytes in the host's memory, so it is waited for. */
+void Memory::move_to_host(Entry &entry, void *host, const UsedPart &part)
+{
+  const auto source =
+      std::find_if(entry.copies.begin(), entry.copies.end(), [](const Copy &copy) { return copy.valid; });
+  if (source == entry.copies.end()) return;
+  for (Copy &copy : entry.copies)
+    if (copy.storage != source->storage && copy.storage->shares_host_memory()) copy.storage->wait();
+  if (source->storage->shares_host_memory()) return source->storage->read(source->handle, 0, host, entry.bytes);
+  source->storage->wait();
+  const auto start = std::chrono::steady_clock::now();
+  for_each_plane(entry.bytes, part, [&](size_t at, size_t bytes) {
+    source->storage->read(source->handle, at, static_cast<char *>(host) + at, bytes);
+  });
+  count_move(moves_, part, start);
+}
+
+void Memory::move_from_host(const Copy &copy, const void *host, size_t bytes, const UsedPart &part)
+{
+  if (copy.storage->shares_host_memory()) return copy.storage->write(copy.handle, 0, host, bytes);
+  copy.storage->wait();
+  const auto start = std::chrono::steady_clock::now();
+  for_each_plane(bytes, part, [&](size_t at, size_t length) {
+    copy.storage->write(copy.handle, at, static_cast<const char *>(host) + at, length);
+  });
+  count_move(moves_, part, start);
+}
+
+/* Bytes move between two devices through the host's copy. */
+void Memory::make_valid(Buffer buffer, Storage &target, UsedParts *used)
+{
+  Entry &entry = entries_[index_of(buffer)];
+  if (copy_in(entry, target).valid) return;
+  const UsedPart part = used ? used->part_of(buffer) : whole(buffer);
   Copy &host = copy_in(entry, host_storage());
   if (!host.valid) {
-    const auto source =
-        std::find_if(entry.copies.begin(), entry.copies.end(), [](const Copy &copy) { return copy.valid; });
-    if (source != entry.copies.end()) {
-      for (Copy &copy : entry.copies)
-        if (copy.storage != source->storage && copy.storage->shares_host_memory()) copy.storage->wait();
-      source->storage->read(source->handle, 0, host.handle, entry.bytes);
-    }
+    move_to_host(entry, host.handle, part);
     host.valid = true;
   }
-  Copy &copy = copy_in(entry, *target);
+  Copy &copy = copy_in(entry, target);
   if (copy.valid) return;
-  copy.storage->write(copy.handle, 0, host.handle, entry.bytes);
+  move_from_host(copy, host.handle, entry.bytes, part);
   copy.valid = true;
 }
 
@@ -135,12 +182,25 @@ void Memory::wait_for_readers(Entry &entry, Storage &writer)
     if (copy.valid && copy.storage != &writer && copy.storage->shares_host_memory()) copy.storage->wait();
 }
 
-void *Memory::acquire(Buffer buffer, Storage &storage, Access access)
+/* The buffer in this storage, if it is valid there and a write makes no other copy stale; else null. */
+void *Memory::valid_alone(const Entry &entry, const Storage &storage, Access access)
+{
+  void *handle = nullptr;
+  for (const Copy &copy : entry.copies)
+    if (copy.valid && copy.storage == &storage) handle = copy.handle;
+    else if (copy.valid && access != Access::in) return nullptr;
+  return handle;
+}
+
+void *Memory::acquire(Buffer buffer, Storage &storage, Access access, UsedParts *used)
 {
   Entry &entry = entries_[index_of(buffer)];
+  const bool forgotten = std::exchange(entry.forgotten, entry.forgotten && access == Access::in);
   if (entry.copies.size() == 1 && entry.copies[0].storage == &storage && entry.copies[0].valid) /* nearly always */
     return entry.copies[0].handle;
-  make_valid(entry, copy_in(entry, storage));
+  if (void *const handle = valid_alone(entry, storage, access)) return handle;
+  if (forgotten) copy_in(entry, storage).valid = true;
+  make_valid(buffer, storage, used);
   Copy &copy = copy_in(entry, storage);
   if (access == Access::in) return copy.handle;
   wait_for_readers(entry, storage);
@@ -166,6 +226,7 @@ void Memory::upload(Buffer buffer, const void *from, size_t bytes, size_t offset
   if (bytes == 0) return;
   uploaded_bytes_ += bytes;
   Entry &entry = entries_[index_of(buffer)];
+  entry.forgotten = false;
   Copy *device = valid_on_device(entry);
   if (!device) {
     char *host = static_cast<char *>(acquire(buffer, host_storage(), Access::inout));
@@ -274,6 +335,7 @@ void Memory::put_back(Buffer buffer, const KeptBytes &kept)
   Entry &entry = entries_[index_of(buffer)];
   Copy &target = copy_in(entry, *kept.storage_);
   wait_for_readers(entry, *kept.storage_);
+  entry.forgotten = false;
   copy_within(*kept.storage_, kept.handle_, target.handle, kept.bytes_);
   for (Copy &copy : entry.copies) copy.valid = &copy == &target;
 }
@@ -313,6 +375,7 @@ void Memory::write_reals(Buffer buffer, const double *from, size_t count, size_t
     std::transform(from, from + count, rounded_.begin(), [](double x) { return round_to_float(x); });
     return upload(buffer, rounded_.data(), count * sizeof(float), first * sizeof(float));
   }
+  entry.forgotten = false;
   wide.storage->write_reals(wide.handle, first, from, count);
   for (Copy &other : entry.copies) other.valid = &other == &wide;
 }

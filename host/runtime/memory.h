@@ -47,6 +47,25 @@ private:
   size_t capacity_ = 0, bytes_ = 0;
 };
 
+/* The part of a buffer that means something: the first bytes of each of its planes, which are equally long. */
+struct UsedPart {
+  size_t bytes = 0, planes = 1;
+};
+
+/* Knows that part where a launch is about to read a buffer; it is asked only if the buffer has to move. */
+class TANDEM_API UsedParts {
+public:
+  virtual ~UsedParts() = default;
+  virtual UsedPart part_of(Buffer buffer) = 0;
+};
+
+/* What has moved between storages so far. A device that works in the host's memory is given buffers without a copy,
+ * which counts for nothing here. */
+struct Moves {
+  uint64_t bytes = 0, buffers = 0;
+  double milliseconds = 0; /* with what wrote them finished, so that none of its time is among it */
+};
+
 /* Every storage given to acquire must outlive the memory. */
 class TANDEM_API Memory {
 public:
@@ -84,8 +103,12 @@ public:
 
   /* Returns the buffer in this storage, valid if `access` reads; a write makes all other copies stale. If it throws
    * (OutOfMemory that names the buffer and its bytes, or the device's std::runtime_error), all contents are
-   * unchanged. */
-  void *acquire(Buffer buffer, Storage &storage, Access access);
+   * unchanged. What moves is what `used` says, or all of it: the bytes behind a part that moved are undefined. */
+  void *acquire(Buffer buffer, Storage &storage, Access access, UsedParts *used = nullptr);
+  /* Nothing reads what the buffer holds until it is written again, so that it need not move. */
+  void forget_contents(Buffer buffer) { entries_[index_of(buffer)].forgotten = true; }
+  const Moves &moves() const { return moves_; }
+  UsedPart whole(Buffer buffer) const { return {bytes(buffer), 1}; }
 
   /* Writes in place where the buffer is valid, so that a few bytes do not move all of it. */
   void upload(Buffer buffer, const void *from, size_t bytes, size_t offset = 0);
@@ -119,18 +142,23 @@ private:
     Element element;
     size_t bytes = 0;
     std::vector<Copy> copies;
+    bool forgotten = false; /* nothing reads the contents before they are written */
   };
   Copy &copy_in(Entry &entry, Storage &storage);
   void *allocate(const Entry &entry, size_t bytes, Storage &storage, void *host_memory);
   Copy &most_precise(Entry &entry);
   static Copy *valid_on_device(Entry &entry);
-  void make_valid(Entry &entry, Copy &copy);
+  static void *valid_alone(const Entry &entry, const Storage &storage, Access access);
+  void make_valid(Buffer buffer, Storage &target, UsedParts *used);
+  void move_to_host(Entry &entry, void *host, const UsedPart &part);
+  void move_from_host(const Copy &copy, const void *host, size_t bytes, const UsedPart &part);
   void wait_for_readers(Entry &entry, Storage &writer);
   void release(Entry &entry) noexcept;
 
   std::vector<Entry> entries_; /* one for each buffer that existed when the memory was made */
   std::vector<float> rounded_; /* by write_reals; kept, so that kernels of the host write without allocating */
   uint64_t uploaded_bytes_ = 0;
+  Moves moves_;
 };
 
 } // namespace tandem

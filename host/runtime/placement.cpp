@@ -1,10 +1,9 @@
 /* placement.cpp - which stage or kernel runs on which backend, as a user writes it; see <tandem/backend.h>. */
-#include <tandem/backend.h>
-
 #include <algorithm>
 
 #include <fmt/format.h>
 
+#include <tandem/backend.h>
 #include <tandem/error.h>
 
 #include "host/runtime/backend_list.h"
@@ -36,6 +35,10 @@ void validate(const Placement &placement)
     if (!is_stage(place) && !find_kernel(place))
       throw InputError(fmt::format("placement '{}={}': no stage or kernel '{}'; the stages are {}", place, backend,
                                    place, stage_list()));
+  if (placement.automatic && (placement.allow_inexact || placement.on.starts_with("reference")))
+    throw InputError(fmt::format("placement auto on {}: only backends that are exact can be chosen by their times, "
+                                 "because results must not depend on them",
+                                 placement.on));
 }
 
 std::vector<std::pair<std::string, std::string>> parse_placement(const std::string &text)

@@ -46,9 +46,11 @@ World::Implementation::Implementation(Beginning beginning, const Placement &plac
       settings_in_use(with_substeps(settings, first_choice(settings))),
       chooses(settings.broadphase == Broadphase::automatic), special(std::move(beginning.special)),
       hulls(hull_sizes(scene, cube_map_cells(settings))), trees(tree_tables(scene)), scene_features(special.features),
-      backends(shared ? PlacedBackends(*shared, features_run()) : PlacedBackends(placement, features_run())),
+      automatic(placement.automatic ? std::make_unique<AutomaticPlacement>(placement) : nullptr),
+      backends(shared ? PlacedBackends(*shared, features_run())
+                      : PlacedBackends(AutomaticPlacement::first_of(placement), features_run())),
       buffers(memory, backends), slots(std::move(beginning.slots)),
-      launcher(memory, [this](Kernel kernel) -> Backend & { return backends.of(kernel); })
+      launcher(memory, [this](Kernel kernel) -> Backend & { return backends.of(kernel); }), parts(memory)
 {
   launcher.set_on_commit([this] { turn(); });
   plan.forces = beginning.forces || module_applies_forces();
@@ -64,7 +66,9 @@ World::Implementation::Implementation(Beginning beginning, const Placement &plac
   plan.capacity_pairs = plan.capacity_candidates = beginning.pairs;
   choose_broadphase_after(std::nullopt);
   record_kernels();
+  validate(placement);
   place(backends.wanted());
+  if (automatic) automatic->look_for_device(backends, buffers.needs().kernels);
   buffers.allocate(sizes());
   upload_scene();
   guess_counts();
@@ -122,6 +126,43 @@ void World::Implementation::place(const Placement &placement)
   backends.place(placement, buffers.needs().kernels);
   buffers.changed();
   structure_state = 0; /* queries on another backend may traverse another structure */
+}
+
+void World::Implementation::place_as_asked(const Placement &placement)
+{
+  validate(placement);
+  auto chooses_next = placement.automatic ? std::make_unique<AutomaticPlacement>(placement) : nullptr;
+  if (chooses_next) chooses_next->look_for_device(backends, buffers.needs().kernels);
+  place(AutomaticPlacement::first_of(placement));
+  automatic = std::move(chooses_next);
+}
+
+/* Before a step changes anything. The step does not wait for kernels that have to be built for another placement, and
+ * where a device fails to take them the CPU goes on. */
+void World::Implementation::place_as_chosen()
+{
+  const std::vector<Kernel> &kernels = buffers.needs().kernels;
+  try {
+    automatic->look_for_device(backends, kernels);
+    const std::optional<Placement> wanted = automatic->wanted();
+    if (wanted && !backends.is_built(*wanted, kernels)) return;
+    if (wanted) place(*wanted);
+    automatic->was_placed();
+  } catch (const std::runtime_error &error) {
+    if (!automatic->has_device()) throw;
+    automatic->device_fails(error.what());
+    place_as_chosen();
+  }
+}
+
+/* The step has succeeded, so that what fails here must not undo it. */
+void World::Implementation::end_timed_step() noexcept
+{
+  try {
+    automatic->end_step(backends, {plan, settings_in_use, memory, bodies(), special.awake});
+  } catch (const std::exception &) {
+    automatic->abandon_step(backends);
+  }
 }
 
 void World::Implementation::place_again()

@@ -27,6 +27,7 @@
 #include "host/scene/hull_buffers.h"
 #include "host/scene/specialise.h"
 #include "host/scene/tree_tables.h"
+#include "host/world/automatic_placement.h"
 #include "host/world/body_slots.h"
 #include "host/world/call_log.h"
 #include "host/world/commands.h"
@@ -36,6 +37,7 @@
 #include "host/world/sleepers.h"
 #include "host/world/state_ring.h"
 #include "host/world/step_buffers.h"
+#include "host/world/step_parts.h"
 
 namespace tandem {
 
@@ -75,6 +77,9 @@ struct World::Implementation {
   Features features_run() const { return settings.specialise ? scene_features : all_features(); }
   void record_kernels();
   void place(const Placement &placement);
+  void place_as_asked(const Placement &placement); /* by a user: it may be automatic */
+  void place_as_chosen();
+  void end_timed_step() noexcept;
   void place_again(); /* if other kernels are needed than before */
   void upload_scene();
   Parameters parameters_now() const;
@@ -111,6 +116,7 @@ struct World::Implementation {
   void restore_bodies();
   [[noreturn]] void tell_why_step_failed() const;
   void begin_launches();
+  void launch_whole_step();
   void tell_substeps();
   std::span<const uint32_t> counts_expected() const;
   void accept();
@@ -263,7 +269,8 @@ struct World::Implementation {
   Specialisation special;
   HullSizes hulls;
   TreeTables trees;
-  Features scene_features; /* what the scene needs, even if all features are run */
+  Features scene_features;                       /* what the scene needs, even if all features are run */
+  std::unique_ptr<AutomaticPlacement> automatic; /* null: the placement is as asked */
   PlacedBackends backends;
   Memory memory;
   StepBuffers buffers;
@@ -271,6 +278,7 @@ struct World::Implementation {
   ShapeSlots shapes;
   std::set<uint32_t> made_shapes; /* of the scene, for a body alone */
   PlacedLauncher launcher;
+  StepParts parts;
   StepPlan plan;
   std::vector<std::pair<int, uint32_t>> scene_entries; /* of counts */
   uint64_t state = 1, structure_state = 0; /* the number of the present state, and of the one that the queries'

@@ -51,11 +51,40 @@ Backend &PlacedBackends::for_kernel(const Placement &placement, Kernel kernel)
   return *backends_.emplace(cpu_kernels_name, std::move(host)).first->second;
 }
 
-/* Everything that can fail comes before the first change of the placement. */
-void PlacedBackends::assign(const Placement &placement, const std::vector<Kernel> &kernels, bool in_background)
+void PlacedBackends::finish()
+{
+  for (const auto &[text, backend] : backends_) backend->finish();
+}
+
+void PlacedBackends::finish_launches()
+{
+  for (const auto &[text, backend] : backends_) {
+    uint64_t &finished = finished_[backend.get()];
+    if (finished != backend->launches) backend->finish();
+    finished = backend->launches;
+  }
+}
+
+std::map<Backend *, std::vector<Kernel>> PlacedBackends::by_backend(const Placement &placement,
+                                                                    const std::vector<Kernel> &kernels)
 {
   std::map<Backend *, std::vector<Kernel>> own;
   for (Kernel kernel : kernels) own[&for_kernel(placement, kernel)].push_back(kernel);
+  return own;
+}
+
+bool PlacedBackends::is_built(const Placement &placement, const std::vector<Kernel> &kernels)
+{
+  bool built = true;
+  for (const auto &[backend, theirs] : by_backend(placement, kernels))
+    built = backend->is_built_ahead(features_, theirs) && built;
+  return built;
+}
+
+/* Everything that can fail comes before the first change of the placement. */
+void PlacedBackends::assign(const Placement &placement, const std::vector<Kernel> &kernels, bool in_background)
+{
+  const std::map<Backend *, std::vector<Kernel>> own = by_backend(placement, kernels);
   std::vector<Backend *> placed(all_kernels());
   bool waiting = false;
   for (const auto &[backend, theirs] : own) {

@@ -30,6 +30,8 @@ public:
   void place_again(const std::vector<Kernel> &kernels) { assign(wanted_, kernels, wanted_.build_in_background); }
   /* Builds these kernels for other features, and from now on all others too. If it throws, nothing has changed. */
   void take_features(Features features, const std::vector<Kernel> &kernels);
+  /* Whether place() would find all of it built; if not, it is being built on threads of its own. */
+  bool is_built(const Placement &placement, const std::vector<Kernel> &kernels);
   /* Kernels run on tbb until those of their backend are built: the same bits, and nobody waits for a compiler. */
   bool is_waiting() const { return waiting_; }
   /* Kernels that place() did not name are built when they are first used, and then kept. */
@@ -38,7 +40,11 @@ public:
   const std::map<std::string, std::shared_ptr<Backend>> &all() const { return backends_; }
   /* Ignores failures, because they were reported when they occurred and a destructor cannot report them. */
   void finish_at_last() noexcept;
+  void finish();
+  /* The same for those that have launched something since; others may still copy states that are kept. */
+  void finish_launches();
   void set_profiling(bool on);
+  bool is_profiling() const { return profiling_; }
   std::vector<KernelTime> take_kernel_times();
   double build_milliseconds() const;
   uint64_t launches() const;
@@ -46,6 +52,7 @@ public:
   void do_without_resident_groups();
 
 private:
+  std::map<Backend *, std::vector<Kernel>> by_backend(const Placement &placement, const std::vector<Kernel> &kernels);
   void assign(const Placement &placement, const std::vector<Kernel> &kernels, bool in_background);
   Backend &named(const std::string &text, bool allow_inexact);
   Backend &for_kernel(const Placement &placement, Kernel kernel);
@@ -53,6 +60,7 @@ private:
   Placement wanted_;
   Features features_;
   std::map<std::string, std::shared_ptr<Backend>> backends_; /* by the text that names them */
+  std::map<const Backend *, uint64_t> finished_;             /* launches of each by the last finish */
   std::vector<Backend *> placed_;                            /* by the kernel's number */
   bool profiling_ = false;                                   /* also of backends made later */
   bool waiting_ = false;

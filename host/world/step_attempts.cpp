@@ -37,22 +37,26 @@ void World::Implementation::step(const StepLimits &limits)
   plan.hits = 0;
   if (nothing_moves()) return sleep_on();
   launcher.set_step(statistics.steps);
+  if (automatic) place_as_chosen();
   ++state;
   const Attempt before{plan, statistics, quarantined.size()};
   try {
     if (backends.is_waiting()) place_again();
+    if (automatic) automatic->begin_step(backends, static_cast<bool>(launcher.observer()));
     settle();
     if (!is_still_right()) choose_again();
     buffers.make_ready(sizes());
     count_awake_bodies();
     run_until_whole(limits);
   } catch (...) {
+    if (automatic) automatic->abandon_step(backends);
     undo(before);
     tell_why_step_failed();
   }
   whole = true;
   idle = false;
   if (settings.sleeping) fall_asleep();
+  if (automatic) end_timed_step();
   sleep_events = std::exchange(sleep_events_to_come, {});
   quiet_state = state;
   keep_state_of_step();
@@ -110,7 +114,7 @@ void World::Implementation::run_until_whole(const StepLimits &limits)
   for (size_t repetition = 0; repetition < most_repetitions + taken_one_by_one; ++repetition) {
     tell_substeps();
     begin_launches();
-    launcher.launch_in_series(counts_expected(), [this] { launch_step(launcher, plan, settings_in_use); });
+    launch_whole_step();
     memory.download(Buffer::counts, plan.known.data(), sizeof plan.known);
     launches_ended = true;
     if (!(plan.known[COUNT_STATUS] & STATUS_DEADLOCK)) check_limits(limits);
@@ -123,6 +127,21 @@ void World::Implementation::run_until_whole(const StepLimits &limits)
   throw std::runtime_error(
       fmt::format("it did not complete in {} repetitions, in which {} bodies did not stay finite (status {})",
                   most_repetitions + taken_one_by_one, bodies.size(), plan.known[COUNT_STATUS]));
+}
+
+/* Between steps buffers move whole: calls read and write what no launch has described. */
+void World::Implementation::launch_whole_step()
+{
+  if (!launcher.observer()) buffers.forget_scratch();
+  parts.begin_step(bodies(), cached_pairs, special.features);
+  launcher.set_parts(&parts);
+  try {
+    launcher.launch_in_series(counts_expected(), [this] { launch_step(launcher, plan, settings_in_use); });
+  } catch (...) {
+    launcher.set_parts(nullptr);
+    throw;
+  }
+  launcher.set_parts(nullptr);
 }
 
 /* Only worlds that choose their substeps ever tell them anew. */

@@ -67,6 +67,16 @@ void StepBuffers::make_ready(const Sizes &sizes)
   ready_ = true;
 }
 
+/* The scratch of modules may hold what the user wrote between steps, and that of queries what is told once. */
+void StepBuffers::forget_scratch()
+{
+  if (backends_.all().size() < 2) return;
+  for (size_t i = 0; i < buffer_count; ++i)
+    if (needs_.touched[i] && row_of(buffer_at(i)).lifetime == Lifetime::SCRATCH &&
+        row_of(buffer_at(i)).capacity != Capacity::NOTHING)
+      memory_.forget_contents(buffer_at(i));
+}
+
 /* Drivers may postpone allocation until the work that fills the buffers runs, so that work is waited for. */
 void StepBuffers::settle(Backend &backend)
 {

@@ -38,6 +38,8 @@ public:
   /* Allocates each buffer on the backends whose kernels use it; does nothing unless something changed. */
   void make_ready(const Sizes &sizes);
   void changed() { ready_ = false; }
+  /* What a step has left in scratch need not follow the kernels that write it anew. */
+  void forget_scratch();
   /* Allocates a buffer for queries between steps, which the step itself may not have. */
   void ensure_capacity(Buffer buffer, const Sizes &sizes);
   bool is_queried(Buffer buffer) const { return queried_[index_of(buffer)]; }

@@ -96,7 +96,12 @@ void World::step(const StepLimits &limits)
 }
 void World::place(const Placement &placement)
 {
-  answer("the placement", implementation_->slots.existing(), [&] { implementation_->place(placement); });
+  answer("the placement", implementation_->slots.existing(), [&] { implementation_->place_as_asked(placement); });
+}
+PlacementReport World::placement_report() const
+{
+  if (implementation_->automatic) return implementation_->automatic->report();
+  return {implementation_->backends.wanted().on, "as asked", true, {}, {}};
 }
 const Scene &World::scene() const { return implementation_->scene; }
 const Settings &World::settings() const { return implementation_->settings; }
@@ -135,6 +140,7 @@ void World::restore(std::span<const std::byte> snapshot)
           return Implementation::restored(snapshot, implementation_->settings.extensions, {}, implementation_.get());
         });
     restored->log = std::move(implementation_->log);
+    restored->automatic = std::move(implementation_->automatic);
     implementation_ = std::move(restored);
   } catch (...) {
     implementation_->backends.take_back();
@@ -573,18 +579,25 @@ uint64_t World::Implementation::state_hash()
 void World::finish()
 {
   if (implementation_->backends.is_waiting()) implementation_->place(implementation_->backends.wanted());
-  for (const auto &[text, backend] : implementation_->backends.all()) backend->finish();
+  if (implementation_->automatic)
+    implementation_->automatic->wait_for_device(implementation_->backends, implementation_->buffers.needs().kernels);
+  /* A device that was measured and not chosen would cost a small scene more than its step. */
+  if (implementation_->automatic && implementation_->ring.size() == 0) implementation_->backends.finish_launches();
+  else implementation_->backends.finish();
 }
 
 void World::set_profiling(bool on) { implementation_->backends.set_profiling(on); }
 std::vector<KernelTime> World::take_kernel_times() { return implementation_->backends.take_kernel_times(); }
 double World::build_milliseconds() const { return implementation_->backends.build_milliseconds(); }
 uint64_t World::launches() const { return implementation_->backends.launches(); }
+uint64_t World::bytes_moved() const { return implementation_->memory.moves().bytes; }
 uint32_t World::resident_groups() const { return implementation_->backends.resident_groups(); }
 
 void World::prepare_kernels()
 {
+  const double built = build_milliseconds();
   for (const auto &[text, backend] : implementation_->backends.all()) backend->build_series();
+  if (implementation_->automatic && build_milliseconds() > built) implementation_->automatic->measure_again();
 }
 
 } // namespace tandem

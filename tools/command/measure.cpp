@@ -108,18 +108,21 @@ Measurement measure(World &world, uint64_t steps, const std::function<void(uint6
   Measurement result;
   for (uint64_t k = 0; k < steps; ++k) {
     if (k == steps / 2) prepare_for_timing(world);
-    const uint64_t launches = world.launches();
+    const uint64_t launches = world.launches(), moved = world.bytes_moved();
     const bool profiled = is_profiled(k, steps);
     const double milliseconds = profiled ? profiled_step(world, stages) : timed_step(world);
     result.profiled_steps += profiled;
     if (k >= steps / 2 && (!profiled || steps - steps / 2 == 1)) {
       timed.push_back(milliseconds);
       result.launches += static_cast<double>(world.launches() - launches);
+      result.bytes_moved += static_cast<double>(world.bytes_moved() - moved);
     }
     if (after_step) after_step(k + 1);
   }
   result.timed_steps = timed.size();
-  result.launches /= static_cast<double>(std::max<size_t>(timed.size(), 1));
+  const auto timed_steps = static_cast<double>(std::max<size_t>(timed.size(), 1));
+  result.launches /= timed_steps;
+  result.bytes_moved /= timed_steps;
   result.step_milliseconds = spread_of(timed);
   result.stages = stages.per_step(result.profiled_steps);
   return result;

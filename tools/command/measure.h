@@ -35,7 +35,9 @@ struct Measurement {
   Spread step_milliseconds;
   std::vector<StageTime> stages; /* in pipeline order */
   uint64_t timed_steps = 0, profiled_steps = 0;
-  double launches = 0; /* a timed step, on average */
+  /* Of a timed step, on average: */
+  double launches = 0;
+  double bytes_moved = 0; /* between memories of backends */
 };
 
 /* Builds before what a long run builds while it runs, so that no timed step waits for it. Goes on without kernels that

@@ -2,9 +2,11 @@
  * says what would be right. */
 #include "tools/command/scene_options.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -43,7 +45,7 @@ double real_number(const std::string &option, const std::string &text)
   return value;
 }
 
-SceneOptions::SceneOptions(CLI::App &parser, bool one_backend)
+SceneOptions::SceneOptions(CLI::App &parser, bool one_backend) : one_backend_(one_backend)
 {
   const Settings defaults;
   step_ = "1/60";
@@ -64,7 +66,9 @@ SceneOptions::SceneOptions(CLI::App &parser, bool one_backend)
       ->required()
       ->type_name("");
   if (one_backend) option("--on", on_, "backend: serial, tbb[:threads=N,lanes=N], cl, cl:P.D, cl:PART-OF-A-NAME", "B");
-  option("--place", place_, "run a stage or a kernel elsewhere: narrowphase=cl,solve=tbb", "STAGE=B,...");
+  const std::string automatic =
+      one_backend ? "; auto: on tbb, on the device of --on, or on both, whatever is fastest on the first steps" : "";
+  option("--place", place_, "run a stage or a kernel elsewhere: narrowphase=cl,solve=tbb" + automatic, "STAGE=B,...");
   option("--steps", steps_, "how many steps", "N");
   steps_option_ = parser.get_option("--steps");
   option("--dt", step_, "time step in seconds, or a fraction 1/N", "S");
@@ -128,10 +132,17 @@ Settings SceneOptions::settings() const
 
 Placement SceneOptions::placement() const
 {
+  constexpr const char *automatic = "auto";
   Placement placement;
   placement.on = on_;
-  if (!place_.empty()) placement.exceptions = parse_placement(place_);
+  placement.automatic = place_ == automatic || place_.starts_with(std::string(automatic) + ",");
+  const std::string exceptions =
+      placement.automatic ? place_.substr(std::min(place_.size(), std::strlen(automatic) + 1)) : place_;
+  if (!exceptions.empty()) placement.exceptions = parse_placement(exceptions);
+  if (placement.automatic && !one_backend_)
+    throw InputError("--place auto: what is compared runs where --between says; name stages instead");
   placement.allow_inexact = inexact_;
+  validate(placement);
   return placement;
 }
 

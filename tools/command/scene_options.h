@@ -42,6 +42,7 @@ public:
   std::string typed_again(const std::string &broadphase) const;
 
 private:
+  const bool one_backend_;
   const CLI::Option *steps_option_ = nullptr;
   std::string scene_, on_ = "tbb", place_, steps_ = "120", step_, substeps_, iterations_;
   std::string solver_, broadphase_, bounds_, midphase_, narrowphase_, support_, support_cells_, batching_, max_pairs_;

@@ -14,6 +14,7 @@
 #include "tools/command/command.h"
 #include "tools/command/measure.h"
 #include "tools/command/output.h"
+#include "tools/command/placement_text.h"
 #include "tools/command/progress.h"
 #include "tools/command/scene_options.h"
 #include "tools/plot/image.h"
@@ -173,7 +174,9 @@ Json outcome_json(const Outcome &outcome, World &world, const Placement &placeme
           {"memory_bytes", world.memory().total_bytes()},
           {"kernels_built", world.kernels().size()},
           {"build_ms", world.build_milliseconds()},
+          {"placement", placement_json(world.placement_report())},
           {"launches", outcome.measurement.launches},
+          {"bytes_moved", outcome.measurement.bytes_moved},
           {"resident_groups", world.resident_groups()},
           {"hash", hash_text(outcome.hash)},
           {"body_hash", hash_text(outcome.body_hash)}};
@@ -201,7 +204,7 @@ std::string stage_table(const Measurement &measurement)
                                         measurement.timed_steps, step.minimum, step.maximum);
 }
 
-std::string facts_table(const Outcome &outcome, World &world)
+std::string facts_table(const Outcome &outcome, World &world, const Placement &placement)
 {
   const Statistics &statistics = outcome.statistics;
   Table table({"pairs", fmt::format("{}", statistics.pairs)}, false);
@@ -217,7 +220,10 @@ std::string facts_table(const Outcome &outcome, World &world)
   table.add({"kinetic energy", fmt::format("{:.6g} J", statistics.kinetic_energy)});
   table.add({"memory", bytes_text(world.memory().total_bytes())});
   table.add({"kernels", fmt::format("{}, built in {:.0f} ms", world.kernels().size(), world.build_milliseconds())});
+  if (placement.automatic) table.add({"placement", placement_text(world.placement_report())});
   table.add({"launches", launches_text(world, outcome.measurement)});
+  table.add({"moved", fmt::format("{} a step between memories",
+                                  bytes_text(static_cast<uint64_t>(outcome.measurement.bytes_moved)))});
   table.add({"hash", fmt::format("{} (bodies alone {})", hash_text(outcome.hash), hash_text(outcome.body_hash))});
   if (world.settings().check)
     table.add(
@@ -229,7 +235,7 @@ void print_outcome(const Outcome &outcome, World &world, const Placement &placem
 {
   fmt::print("{}: {} bodies, {} steps of {:.6g} s on {}\n\n", outcome.scene, world.scene().bodies.size(), outcome.steps,
              world.settings().step, placement.on);
-  fmt::print("{}\n{}", stage_table(outcome.measurement), facts_table(outcome, world));
+  fmt::print("{}\n{}", stage_table(outcome.measurement), facts_table(outcome, world, placement));
 }
 
 /* Warnings are printed in any case, whatever else is. */

@@ -9,6 +9,7 @@
  */
 #pragma once
 
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -28,9 +29,15 @@ struct Placement {
   /* The broadphase `auto` is chosen as if this backend ran it; empty: for the one that does. Worlds whose kernels are
    * compared one by one must run the same ones. */
   std::string broadphase_for = {};
+  /* The world chooses where its steps run: on `tbb`, on the device that `on` names, or cut by stages between both. It
+   * takes the fastest on its first steps, and again when the scene has become twice or half as large. Until the kernels
+   * of the device are built `tbb` runs them. Exceptions hold whatever is chosen. */
+  bool automatic = false;
+  std::function<double()> clock = {}; /* in ms; what the choice reads instead of the machine's, for programs that must
+                                         repeat one */
 };
 
-/* Throws InputError if an exception names no stage and no kernel. */
+/* Throws InputError if an exception names no stage and no kernel, or if results might depend on an automatic choice. */
 TANDEM_API void validate(const Placement &placement);
 
 /* Parses "STAGE=B,STAGE=B". A part without '=' belongs to the backend before it; so does an option such as lanes=4 of

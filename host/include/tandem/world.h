@@ -98,6 +98,23 @@ struct KernelTime {
   uint64_t launches;
 };
 
+/* Where the next step runs, and why. */
+struct PlacementReport {
+  std::string on;      /* "tbb", or "cl:0.0 with narrowphase on tbb" */
+  std::string why;     /* in one line; "as asked" unless the placement is automatic */
+  bool settled = true; /* false while candidates are being built and measured */
+  struct Time {
+    std::string on;
+    double milliseconds; /* of a step */
+  };
+  std::vector<Time> times; /* of all candidates that the last measurement had */
+  struct StageTimes {
+    std::string stage;
+    double on_cpu, on_device; /* ms of kernels a step */
+  };
+  std::vector<StageTimes> stages;
+};
+
 class TANDEM_API World {
 public:
   World(const Scene &scene, const Settings &settings = {}, const Placement &placement = {});
@@ -165,6 +182,8 @@ public:
   /* Moves kernels to other backends from the next step on; the results keep their bits. Buffers are moved when they are
    * first needed there. If it throws (InputError, or a device's std::runtime_error), the placement is unchanged. */
   void place(const Placement &placement);
+
+  PlacementReport placement_report() const;
 
   const Scene &scene() const;
   const Settings &settings() const;          /* with the broadphase that `auto` has chosen for the next step */
@@ -394,6 +413,8 @@ public:
   double build_milliseconds() const;
   /* Launches that backends have made so far, without kernels of the host alone; joined ones count as one. */
   uint64_t launches() const;
+  /* What steps and calls have copied so far between memories, where stages are placed on backends that share none. */
+  uint64_t bytes_moved() const;
   /* The work-groups of the largest launch that joins others: 1 where only launches of few items are joined, or none. */
   uint32_t resident_groups() const;
 

@@ -84,6 +84,15 @@ public:
   /* Builds what the launches so far would let run_series() build in the background later. */
   virtual void build_series() {}
 
+  /* Programs compiled at run time so far, as the driver describes them; none on a CPU, whose kernels are part of the
+   * library. */
+  struct Compiled {
+    Stage stage;
+    std::string options;
+    std::vector<std::string> kernels;
+  };
+  virtual std::vector<Compiled> compiled() const { return {}; }
+
   double build_milliseconds = 0; /* spent in prepare and build_series */
   uint64_t launches = 0;         /* made so far; a series that runs as one counts as one */
 };

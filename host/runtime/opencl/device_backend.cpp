@@ -10,6 +10,8 @@
 #include <cstdlib>
 #include <future>
 #include <map>
+#include <set>
+#include <sstream>
 #include <utility>
 
 #include <fmt/format.h>
@@ -97,6 +99,17 @@ public:
       if (!current_->kernels[index_of(kernel)].kernel())
         create_kernel(kernel, programs_[key_of(row_of(kernel).stage, features)].at(kernel));
     add_build_time(start);
+  }
+
+  std::vector<Compiled> compiled() const override
+  {
+    std::vector<Compiled> list;
+    for (const auto &[key, programs] : programs_) {
+      std::set<cl_program> seen;
+      for (const auto &[kernel, program] : programs)
+        if (seen.insert(program()).second) list.push_back(described(key.first, program));
+    }
+    return list;
   }
 
   bool is_built_ahead(Features features, const std::vector<Kernel> &kernels) override
@@ -220,6 +233,15 @@ private:
     } catch (const cl::Error &error) {
       fail(row_of(kernels.front()), "creation", error.err());
     }
+  }
+
+  /* The driver separates the names by semicolons. */
+  Compiled described(Stage stage, const cl::Program &program) const
+  {
+    Compiled compiled{stage, program.getBuildInfo<CL_PROGRAM_BUILD_OPTIONS>(context_.device), {}};
+    std::istringstream names(program.getInfo<CL_PROGRAM_KERNEL_NAMES>());
+    for (std::string name; std::getline(names, name, ';');) compiled.kernels.push_back(name);
+    return compiled;
   }
 
   /* PoCL compiles a kernel when it is launched, so building the whole program costs little. PoCL 3.1 also crashes in

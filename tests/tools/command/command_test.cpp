@@ -191,7 +191,9 @@ TEST_CASE("command: run writes what its contract says", "[command]")
                    "colors",   "max_penetration", "mean_penetration", "kinetic_energy", "nonfinite",
                    "asleep",   "islands",
                    "overflow", "memory_bytes",    "kernels_built",    "build_ms",       "hash",
-                   "body_hash"});
+                   "body_hash", "launches", "bytes_moved", "placement"});
+  CHECK(run["bytes_moved"] == 0);
+  CHECK(run["placement"]["why"] == "as asked");
   check_keys(run["step_ms"], {"median", "min", "max"});
   CHECK(run["scene"] == tiny);
   CHECK(run["backend"] == "serial");
@@ -332,6 +334,35 @@ TEST_CASE("command: lists and plan", "[command]")
   for (const Json &buffer : plan["buffers"])
     if (buffer["kept"] == true) kept += buffer["bytes"].get<int64_t>();
   CHECK(kept == plan["memory_bytes"].get<int64_t>());
+}
+
+TEST_CASE("command: plan draws what is kept and what is left out", "[command]")
+{
+  const Scratch scratch;
+  const std::string picture = scratch.file("plan.svg");
+  const Json plan = json_of("plan spheres:n=8 --svg '" + picture + "'");
+  const std::string svg = contents(picture);
+  CHECK(svg.find("<svg") == 0);
+  for (const Json &kernel : plan["kernels"])
+    CHECK(svg.find(">" + kernel["name"].get<std::string>() + "</text>") != std::string::npos);
+  CHECK(svg.find("collide_box_box: left out; it comes with BOX_BOX") != std::string::npos);
+  CHECK(svg.find("collide_sphere_sphere: on tbb") != std::string::npos);
+  CHECK(plan["compiled"].empty());
+  check_refused("plan spheres:n=8 --svg /no/such/folder/plan.svg", "--svg");
+}
+
+TEST_CASE("command: a placement may be chosen by times, and what moves is counted", "[command]")
+{
+  const Json chosen = json_of("plan " + tiny + " --place auto");
+  CHECK(chosen["placement"]["on"] == "tbb");
+  CHECK(chosen["placement"]["settled"] == true);
+  CHECK(command("plan " + tiny + " --place auto").out.find("placement: tbb, no OpenCL device is named") !=
+        std::string::npos);
+  CHECK(json_of("run " + tiny + " --steps 4 --place auto,solve=serial")["placement"]["on"] == "tbb");
+  CHECK(json_of("run " + tiny + " --steps 4 --on serial --place solve=reference")["bytes_moved"] > 0);
+  check_refused("run " + tiny + " --place automatic", "automatic");
+  check_refused("run " + tiny + " --on reference --place auto", "only backends that are exact");
+  check_refused("diff " + tiny + " --between serial,tbb --place auto", "--between");
 }
 
 TEST_CASE("command: --check proves the batches", "[command]")
