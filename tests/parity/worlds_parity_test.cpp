@@ -58,6 +58,27 @@ TEST_CASE("parity with PoCL: worlds of a batch have the bits of worlds alone")
   require_worlds_alone("cl:pocl", 5, 12);
 }
 
+TEST_CASE("parity on CPU: worlds of a batch with other settings")
+{
+  std::vector<Settings> variants(8);
+  variants[0].bounds = Bounds::tight;
+  variants[1].midphase = Midphase::subtrees;
+  variants[2].narrowphase = Narrowphase::gjk_epa;
+  variants[3].narrowphase = Narrowphase::sat_split;
+  variants[4].narrowphase = Narrowphase::cube_map;
+  variants[5].support = Support::hill_climbing;
+  variants[6].iterations = 2;
+  variants[6].substeps = 1;
+  variants[7].specialise = false;
+  variants[7].narrowphase = Narrowphase::gjk_sampled;
+  for (size_t variant = 0; variant < variants.size(); ++variant) {
+    CAPTURE(variant);
+    for (const char *scene : {"shapes:n=16", "convex-hulls:n=12", "compounds:n=8"})
+      tests::BatchBesideWorlds(tests::seeded_scenes(scene, 3), "tbb:threads=2", variants[variant]).step(12);
+    tests::BatchBesideWorlds(tests::varied_scenes(few_trees(), 3), "tbb:threads=2", variants[variant]).step(6);
+  }
+}
+
 TEST_CASE("parity on CPU: worlds of a batch with all that a step can list", "[sanitizer]")
 {
   Settings settings;
