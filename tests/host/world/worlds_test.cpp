@@ -1,6 +1,7 @@
 /* A batch of worlds: each goes on as it would alone, whatever is done to it and to those beside it. */
 #include <limits>
 
+#include "tests/host/runtime/opencl/pocl.h"
 #include "tests/host/world/worlds.h"
 
 namespace tandem::tests {
@@ -31,13 +32,20 @@ Scene loaded_slab(int boxes)
   return scene;
 }
 
+std::vector<std::string> backends()
+{
+  std::vector<std::string> all = {"serial", "tbb:threads=2"};
+  parity::add_pocl(all);
+  return all;
+}
+
 std::vector<Scene> small_piles(uint32_t worlds) { return seeded_scenes("falling-boxes:n=8,height=0", worlds); }
 
 } // namespace
 
 TEST_CASE("a batch of worlds: resets at any time")
 {
-  for (const char *backend : {"serial", "tbb:threads=2"}) {
+  for (const std::string &backend : backends()) {
     Settings settings;
     settings.events = settings.pair_events = true;
     BatchBesideWorlds both(small_piles(5), backend, settings);
@@ -79,19 +87,21 @@ TEST_CASE("a batch of worlds: gravity of their own")
   std::vector<Scene> scenes = small_piles(4);
   scenes[1].gravity = {0, -1.6f, 0};
   scenes[2].gravity = {3, -9, 1};
-  BatchBesideWorlds both(scenes, "tbb:threads=2");
-  both.step(10);
-  both.batch.set_gravity(3, {0, 4, 0});
-  both.alone[3]->set_gravity({0, 4, 0});
-  both.step(10);
-  CHECK(both.batch.scene(3).gravity == Vec3{0, 4, 0});
-  both.reset({3});
-  both.step(5);
-  const std::vector<uint32_t> all = {0, 1, 2, 3};
-  const std::vector<Vec3> gravity(4, Vec3{1, -5, 0});
-  both.batch.set_gravity(all, gravity);
-  for (const auto &world : both.alone) world->set_gravity({1, -5, 0});
-  both.step(5);
+  for (const std::string &backend : backends()) {
+    BatchBesideWorlds both(scenes, backend);
+    both.step(10);
+    both.batch.set_gravity(3, {0, 4, 0});
+    both.alone[3]->set_gravity({0, 4, 0});
+    both.step(10);
+    CHECK(both.batch.scene(3).gravity == Vec3{0, 4, 0});
+    both.reset({3});
+    both.step(5);
+    const std::vector<uint32_t> all = {0, 1, 2, 3};
+    const std::vector<Vec3> gravity(4, Vec3{1, -5, 0});
+    both.batch.set_gravity(all, gravity);
+    for (const auto &world : both.alone) world->set_gravity({1, -5, 0});
+    both.step(5);
+  }
 }
 
 TEST_CASE("a batch of worlds: other shapes, materials and features in each")
@@ -102,7 +112,7 @@ TEST_CASE("a batch of worlds: other shapes, materials and features in each")
   for (Scene &scene : scenes) scene.bodies.resize(std::min(bodies, scene.bodies.size()));
   for (const Scene &scene : scenes) bodies = std::min(bodies, scene.bodies.size());
   for (Scene &scene : scenes) scene.bodies.resize(bodies);
-  for (const char *backend : {"serial", "tbb:threads=2"}) BatchBesideWorlds(scenes, backend).step(25);
+  for (const std::string &backend : backends()) BatchBesideWorlds(scenes, backend).step(25);
 }
 
 TEST_CASE("a batch of worlds: calls to bodies")
@@ -129,7 +139,7 @@ TEST_CASE("a batch of worlds: calls to bodies")
 
 TEST_CASE("a batch of worlds: a body that stops being finite is taken out of its world alone")
 {
-  for (const char *backend : {"serial", "tbb:threads=2"}) {
+  for (const std::string &backend : backends()) {
     BatchBesideWorlds both(small_piles(4), backend);
     both.step(12);
     for (const auto &[world, body] : std::vector<WorldBody>{{1, 5}, {3, 2}, {3, 7}}) {
@@ -149,9 +159,26 @@ TEST_CASE("a batch of worlds: a body that stops being finite is taken out of its
   }
 }
 
+/* Alone, a world that loses more than 32 bodies in a step loses the rest at once; those beside it do not count. */
+TEST_CASE("a batch of worlds: many bodies stop being finite in one step")
+{
+  BatchBesideWorlds both(seeded_scenes("spheres:n=48,height=0", 12), "tbb:threads=2");
+  both.step(5);
+  for (uint32_t world = 0; world < 12; ++world)
+    for (uint32_t body = 1; body <= (world == 7 ? 40u : 5u); ++body) {
+      BodyState bad = both.alone[world]->bodies()[body];
+      bad.linear_velocity[0] = not_a_number;
+      both.batch.set_state_unchecked({world, body}, bad);
+      both.alone[world]->set_body_unchecked(body, bad);
+    }
+  both.step(4);
+  CHECK(both.batch.quarantined(7).size() == 40);
+  CHECK(both.batch.quarantined(6).size() == 5);
+}
+
 TEST_CASE("a batch of worlds: overflow constraints in some of them")
 {
-  for (const char *backend : {"serial", "tbb:threads=2"}) {
+  for (const std::string &backend : backends()) {
     const std::vector<Scene> scenes = {loaded_slab(9), loaded_slab(81), loaded_slab(30), loaded_slab(75)};
     BatchBesideWorlds both(scenes, backend);
     both.step(20);
@@ -169,9 +196,11 @@ TEST_CASE("a batch of worlds: buffers that overflow grow, and no bit changes")
     for (Body &body : scenes[world].bodies)
       if (body.type == BodyType::dynamic)
         for (double &x : body.position) x *= 0.2; /* all overlap with most others */
-  BatchBesideWorlds both(scenes, "tbb:threads=2");
-  both.step(4);
-  CHECK(both.batch.statistics().overflow > 0);
+  for (const std::string &backend : backends()) {
+    BatchBesideWorlds both(scenes, backend);
+    both.step(4);
+    CHECK(both.batch.statistics().overflow > 0);
+  }
 }
 
 /* Rows of the cache that no pair has any more must decide nothing, not even the sign of a zero. */
