@@ -55,13 +55,15 @@ typedef struct {
 #define GROUP_bodies(BUFFER)                                                                                           \
   BUFFER(body_position, float4, position)                                                                              \
   BUFFER(body_orientation, float4, orientation)                                                                        \
-  BUFFER(body_velocity, float4, velocity)
+  BUFFER(body_velocity, float4, velocity)                                                                              \
+  BUFFER(body_gravity, float4, gravity)
 
 /* The bodies that the setup of a contact reads. */
 #define GROUP_touching_bodies(BUFFER)                                                                                  \
   BUFFER(body_flags, uint, flags)                                                                                      \
   BUFFER(body_shape, float4, shape)                                                                                    \
   BUFFER(body_mass, float4, mass)                                                                                      \
+  BUFFER(body_gravity, float4, gravity)                                                                                \
   BUFFER(body_position, float4, position)                                                                              \
   BUFFER(solver_velocity, float4, velocity)                                                                            \
   BUFFER(solver_inertia, float4, inertia)
@@ -161,6 +163,13 @@ typedef struct {
   BUFFER(pair_a, uint, a)                                                                                              \
   BUFFER(pair_b, uint, b)
 
+/* Pairs, with the first pair of each body and the range of bodies of its world. */
+#define GROUP_world_pairs(BUFFER)                                                                                      \
+  BUFFER(pair_a, uint, a)                                                                                              \
+  BUFFER(pair_b, uint, b)                                                                                              \
+  BUFFER(pair_start, uint, start)                                                                                      \
+  BUFFER(body_world, uint, world)
+
 /* Pairs with the lists that narrowphase kernels run over (narrowphase/pair_lists.h). */
 #define GROUP_listed_pairs(BUFFER)                                                                                     \
   BUFFER(pair_a, uint, a)                                                                                              \
@@ -194,6 +203,9 @@ typedef struct {
 typedef struct {
   GROUP_pairs(READ_MEMBER)
 } read_pairs;
+typedef struct {
+  GROUP_world_pairs(READ_MEMBER)
+} read_world_pairs;
 typedef struct {
   GROUP_pairs(WRITE_MEMBER)
 } write_pairs;

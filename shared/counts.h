@@ -113,7 +113,10 @@ enum {
   /* The ranges of the bodies sorted by colour, stored as those of COLOR_START. */
   BODY_COLOR_START = KIND_START + PAIR_KIND_NONE + 1,
   COLOR_START = BODY_COLOR_START + COLOR_ENTRIES,
-  COUNT_TOTAL = COLOR_START + COLOR_ENTRIES
+  /* In a batch of worlds: of each colour, the first constraint of a world that has overflow constraints
+   * (batching/world_order.h). */
+  WORLD_COLOR_START = COLOR_START + COLOR_ENTRIES,
+  COUNT_TOTAL = WORLD_COLOR_START + (int)COLOR_LIMIT
 };
 
 enum {

@@ -114,14 +114,27 @@ SHARED vec3 gravity_of(GLOBAL const Parameters *parameters)
   return make_vec3(parameters->gravity_x, parameters->gravity_y, parameters->gravity_z);
 }
 
+/* In a batch each world has its own gravity. Two bodies that meet are of one world, so either tells theirs. */
+SHARED vec3 gravity_at(GLOBAL const Parameters *parameters, GLOBAL const float4 *body_gravity, uint_lanes body)
+{
+  if (HAS_FEATURE(parameters, WORLDS)) return xyz(load_float4(body_gravity, body));
+  return gravity_of(parameters);
+}
+
+/* The first body of a body's world. Of a batch those of one world are neighbours; else all bodies are of one. */
+SHARED uint first_of_world(GLOBAL const Parameters *parameters, GLOBAL const uint *body_world, uint body)
+{
+  return HAS_FEATURE(parameters, WORLDS) ? body_world[2u * body] : 0u;
+}
+
 /* A body falls freely if its constraints bear less than this share of its weight (integrate/positions.h). */
 #define WEIGHTLESS R(1e-3)
 
 /* The velocity that gravity adds over a step, on average. first, second: rows of body_velocity. */
-SHARED vec3 mean_fall(GLOBAL const Parameters *parameters, vec4 first, vec4 second)
+SHARED vec3 mean_fall(GLOBAL const Parameters *parameters, vec3 gravity, vec4 first, vec4 second)
 {
   real factor = choose(first.w > R(0.0), second.w, (real)R(0.0));
-  return scale(gravity_of(parameters), factor * R(0.5) * parameters->step);
+  return scale(gravity, factor * R(0.5) * parameters->step);
 }
 SHARED void store_velocity(GLOBAL float4 *velocity, uint_lanes body, spatial_velocity m)
 {
@@ -160,6 +173,8 @@ SHARED void store_inertia_if(mask wanted, GLOBAL float4 *inertia, uint_lanes bod
   store_float4_if(wanted, inertia, body * 2u, make_vec4(s.xx, s.yy, s.zz, s.xy));
   store_float4_if(wanted, inertia, body * 2u + 1u, make_vec4(s.xz, s.yz, R(0.0), R(0.0)));
 }
+
+SHARED mask is_nonzero(vec3 v) { return (v.x != R(0.0)) | (v.y != R(0.0)) | (v.z != R(0.0)); }
 
 /* True where every component is a finite number. */
 SHARED mask is_finite(vec3 v)

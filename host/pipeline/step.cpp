@@ -140,10 +140,19 @@ private:
     const BatcherRow &batcher = row_of(settings().batching);
     run(Kernel::match_pairs, {batcher.keeps_colors ? 1u : 0u});
     batcher.launch(*this);
-    run(Kernel::color_keys);
+    const bool by_world = has(FEATURE_WORLDS) && plan().colors > COLOR_LIMIT;
+    if (by_world) find_color_keys_by_world();
+    else run(Kernel::color_keys);
     sort(Buffer::sort_key, Buffer::sort_value, COUNT_PAIRS, plan().capacity_pairs, 0, 8);
-    run(Kernel::color_starts);
+    run(by_world ? Kernel::world_color_starts : Kernel::color_starts);
     if (settings().check) launch_check(*this);
+  }
+
+  void find_color_keys_by_world()
+  {
+    run_range(Kernel::fill, COUNT_ZERO, COUNT_BODIES, {0}, {Buffer::world_overflows});
+    run(Kernel::note_world_overflow);
+    run(Kernel::world_color_keys);
   }
 
   /* A step carries what stands on a body down by one layer. The first step of a world carries it down through stacks,

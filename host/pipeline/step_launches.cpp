@@ -47,8 +47,10 @@ void StepLaunches::run_pairs(Kernel kernel, uint32_t first_kind, uint32_t last_k
 
 void StepLaunches::for_each_color(Kernel kernel, const Values &values)
 {
-  for (uint32_t color = 0; color < std::min(plan_.colors, COLOR_LIMIT); ++color)
-    run_range(kernel, COLOR_START + color, COLOR_START + color + 1, values);
+  for (uint32_t color = 0; color < std::min(plan_.colors, COLOR_LIMIT); ++color) {
+    const uint32_t first = COLOR_START + color, end = first + 1, begins = limited_ ? WORLD_COLOR_START + color : first;
+    launcher_.launch({kernel, {}, values, begins, end, plan_.known[end] - plan_.known[first]});
+  }
 }
 
 void StepLaunches::for_each_color(Kernel kernel, Kernel overflow, const Values &values)

@@ -35,6 +35,9 @@ public:
   /* Launches a kernel once for each colour of constraints; constraints without a colour are left to
    * host/pipeline/solvers/mass_split.h. */
   void for_each_color(Kernel kernel, const Values &values = {});
+  /* From now on, the colours of a batch of worlds are the constraints of those worlds that have overflow constraints,
+   * or all again. */
+  void limit_to_worlds_with_overflow(bool limited) { limited_ = limited; }
   /* Does the same, and launches `overflow` over the constraints without a colour. */
   void for_each_color(Kernel kernel, Kernel overflow, const Values &values = {});
   /* Starts a substep: the impulses of the previous one are added up for the events, and forces are applied. */
@@ -55,6 +58,7 @@ private:
   Launcher &launcher_;
   const StepPlan &plan_;
   const Settings &settings_;
+  bool limited_ = false;
 };
 
 } // namespace tandem

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include <tandem/settings.h>
 
@@ -218,15 +219,16 @@ struct LargeBodies {
   std::vector<uint32_t> unbounded, large;
 };
 
-LargeBodies large_bodies(const Scene &scene, float median)
+/* The bodies are numbered from 0. */
+LargeBodies large_bodies(const Scene &scene, std::span<const Body> bodies, float median)
 {
   std::vector<float> radii;
-  for (const Body &body : scene.bodies) radii.push_back(bounding_radius(scene, body));
+  for (const Body &body : bodies) radii.push_back(bounding_radius(scene, body));
   const auto radius = [&](uint32_t body) { return radii[body]; };
   std::vector<uint32_t> unbounded, large;
-  for (uint32_t body = 0; body < scene.bodies.size(); ++body) {
-    if (scene.shapes[scene.bodies[body].shape].type == ShapeType::half_space) unbounded.push_back(body);
-    else if (is_large(radius(body), scene.bodies[body], median)) large.push_back(body);
+  for (uint32_t body = 0; body < bodies.size(); ++body) {
+    if (scene.shapes[bodies[body].shape].type == ShapeType::half_space) unbounded.push_back(body);
+    else if (is_large(radius(body), bodies[body], median)) large.push_back(body);
   }
   std::stable_sort(large.begin(), large.end(), [&](uint32_t a, uint32_t b) { return radius(a) > radius(b); });
   if (large.size() > most_large_bodies) large.resize(most_large_bodies);
@@ -234,17 +236,37 @@ LargeBodies large_bodies(const Scene &scene, float median)
   return {unbounded, large};
 }
 
-} // namespace
-
-float median_radius(const Scene &scene)
+float median_radius(const Scene &scene, std::span<const Body> bodies)
 {
   std::vector<float> radii;
-  for (const Body &body : scene.bodies)
+  for (const Body &body : bodies)
     if (scene.shapes[body.shape].type != ShapeType::half_space) radii.push_back(bounding_radius(scene, body));
   if (radii.empty()) return 0;
   std::nth_element(radii.begin(), radii.begin() + radii.size() / 2, radii.end());
   return radii[radii.size() / 2];
 }
+
+/* The order of the bodies of one world, and what of it is unbounded and large. */
+Specialisation order_of(const Scene &scene, std::span<const Body> bodies)
+{
+  Specialisation result;
+  result.median = median_radius(scene, bodies);
+  const LargeBodies first = large_bodies(scene, bodies, result.median);
+  result.order = first.unbounded;
+  result.order.insert(result.order.end(), first.large.begin(), first.large.end());
+  result.unbounded = static_cast<uint32_t>(first.unbounded.size());
+  result.large = static_cast<uint32_t>(result.order.size());
+  std::vector<bool> taken(bodies.size());
+  for (uint32_t body : result.order) taken[body] = true;
+  for (uint32_t body = 0; body < bodies.size(); ++body)
+    if (!taken[body]) result.order.push_back(body);
+  result.awake = static_cast<uint32_t>(result.order.size());
+  return result;
+}
+
+} // namespace
+
+float median_radius(const Scene &scene) { return median_radius(scene, scene.bodies); }
 
 bool is_general(const Scene &scene, const Body &body)
 {
@@ -298,7 +320,7 @@ Features all_features()
 {
   Features all = 0;
   for (int index = 0; index < FEATURE_COUNT; ++index) all |= feature_of_index(index);
-  return all;
+  return all & ~FEATURE_WORLDS;
 }
 
 bool is_large(const Scene &scene, const Body &body, float median)
@@ -326,18 +348,22 @@ Features features_of(const Scene &scene, const Settings &settings)
 
 Specialisation specialise(const Scene &scene, const Settings &settings)
 {
-  Specialisation result;
+  Specialisation result = order_of(scene, scene.bodies);
   result.features = features_of(scene, settings);
-  result.median = median_radius(scene);
-  const LargeBodies first = large_bodies(scene, result.median);
-  result.order = first.unbounded;
-  result.order.insert(result.order.end(), first.large.begin(), first.large.end());
-  result.unbounded = static_cast<uint32_t>(first.unbounded.size());
-  result.large = static_cast<uint32_t>(result.order.size());
-  std::vector<bool> taken(scene.bodies.size());
-  for (uint32_t body : result.order) taken[body] = true;
-  for (uint32_t body = 0; body < scene.bodies.size(); ++body)
-    if (!taken[body]) result.order.push_back(body);
+  return result;
+}
+
+Specialisation specialise_worlds(const Scene &all, uint32_t worlds, const Settings &settings)
+{
+  Specialisation result;
+  result.features = features_of(all, settings) | FEATURE_WORLDS;
+  result.worlds = worlds;
+  const size_t bodies = all.bodies.size() / worlds;
+  for (uint32_t world = 0; world < worlds; ++world) {
+    const auto first = static_cast<uint32_t>(world * bodies);
+    for (const uint32_t body : order_of(all, std::span(all.bodies).subspan(first, bodies)).order)
+      result.order.push_back(first + body);
+  }
   result.awake = static_cast<uint32_t>(result.order.size());
   return result;
 }

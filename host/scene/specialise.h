@@ -32,9 +32,14 @@ struct Specialisation {
   uint32_t large = 0;     /* half-spaces and large bodies */
   uint32_t awake = 0;     /* all bodies but those that sleep, which come last */
   float median = 0;       /* m, of the bounding radii; it decides which bodies are large */
+  uint32_t worlds = 0;    /* of a batch (tandem/worlds.h), each of as many bodies; 0: a world alone */
 };
 
 Specialisation specialise(const Scene &scene, const Settings &settings);
+
+/* For a batch of so many worlds, whose bodies stand in the scene one world after the other, with equally many in each.
+ * Every world keeps the order that it has alone, so no body is in the range of the unbounded or large ones. */
+Specialisation specialise_worlds(const Scene &all, uint32_t worlds, const Settings &settings);
 
 /* The features alone. */
 Features features_of(const Scene &scene, const Settings &settings);
@@ -51,7 +56,7 @@ BodyKind kind_of(const Scene &scene, const Body &body);
 /* True for a body that is large beside others of this median radius, or whose bounds are. */
 bool is_large(const Scene &scene, const Body &body, float median);
 
-/* All features that the shapes of a scene could need, for comparing builds. */
+/* All features that a world alone could need, for comparing builds. */
 Features all_features();
 
 /* The median of bounding_radius over the bodies of finite size; 0 if there are none. */

@@ -184,7 +184,8 @@ const char *iteration_name(Kernel kernel)
   case Kernel::merge_count:
   case Kernel::merge_write:
   case Kernel::start_pairs: return "body";
-  case Kernel::color_starts: return "color";
+  case Kernel::color_starts:
+  case Kernel::world_color_starts: return "color";
   default: return row_of(kernel).items == COUNT_ONE ? "" : "i";
   }
 }

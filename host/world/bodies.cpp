@@ -372,9 +372,9 @@ void World::Implementation::plan_layout(const Arrival &arrival, std::vector<uint
   special.large += static_cast<uint32_t>(arrival.appended[0].size() + arrival.appended[1].size());
   special.median = arrival.median;
   special.awake = static_cast<uint32_t>(order.size()) - sleepers.count();
-  special.features = settings.specialise ? needed : all_features();
-  special.order = std::move(order);
   scene_features = needed;
+  special.features = features_run();
+  special.order = std::move(order);
   hulls = hull_sizes(scene, cube_map_cells(settings));
   trees = tree_tables(scene);
   if (bodies() > plan.bodies) plan.bodies = std::max({bodies(), 2 * plan.bodies, least_room});

@@ -8,6 +8,8 @@
 
 namespace tandem {
 
+size_t item_bytes(Buffer buffer) { return row_of(buffer).per_item * size_of(row_of(buffer).element); }
+
 size_t items_in_use(Memory &memory, Buffer buffer, BodyNumbers bodies, uint32_t pairs)
 {
   const BufferRow &row = row_of(buffer);

@@ -28,6 +28,8 @@ struct BodyNumbers {
   uint32_t all, awake;
 };
 
+size_t item_bytes(Buffer buffer);
+
 /* The number of items that the last step left; later ones are of older steps. pairs: in the contact cache. */
 size_t items_in_use(Memory &memory, Buffer buffer, BodyNumbers bodies, uint32_t pairs);
 

@@ -117,6 +117,7 @@ void World::Implementation::record_kernels()
   launch_step(recorder, all, settings_in_use);
   note_shapes(recorder);
   if (settings.sleeping) note_sleep(recorder);
+  if (is_batch()) note_batch(recorder);
   for (const Extension &extension : settings.extensions) note_rows(recorder, *extension.module);
   buffers.take_needs(std::move(recorder));
 }

@@ -38,6 +38,7 @@
 #include "host/world/state_ring.h"
 #include "host/world/step_buffers.h"
 #include "host/world/step_parts.h"
+#include "shared/parameters.h"
 
 namespace tandem {
 
@@ -74,7 +75,10 @@ struct World::Implementation {
 
   /* --- making a world: implementation.cpp --------------------------------------------------------------------- */
   Sizes sizes() const;
-  Features features_run() const { return settings.specialise ? scene_features : all_features(); }
+  Features features_run() const
+  {
+    return settings.specialise ? scene_features : all_features() | (scene_features & FEATURE_WORLDS);
+  }
   void record_kernels();
   void place(const Placement &placement);
   void place_as_asked(const Placement &placement); /* by a user: it may be automatic */
@@ -136,6 +140,13 @@ struct World::Implementation {
   void quarantine_from(uint32_t code, uint32_t status);
   void quarantine(uint32_t index, uint32_t stage);
 
+  /* --- a batch of worlds (host/world/worlds.h): batch.cpp --------------------------------------------------------- */
+  bool is_batch() const { return special.worlds > 0; }
+  uint32_t bodies_of_world() const { return bodies() / special.worlds; }
+  void note_batch(Recorder &recorder) const;
+  void quarantine_in_worlds(uint32_t status);
+  void quarantine_of_world(std::span<const uint32_t> failed, uint32_t first, bool lacks_contacts);
+
   /* --- a world as bytes: snapshot.cpp ---------------------------------------------------------------------------- */
   std::vector<std::byte> save(std::vector<std::byte> memory = {}); /* memory: is used again */
   void put_history(ByteWriter &writer) const;
@@ -145,6 +156,8 @@ struct World::Implementation {
   static std::unique_ptr<Implementation> restored(std::span<const std::byte> snapshot,
                                                   std::vector<Extension> extensions, const Placement &placement,
                                                   const Implementation *old);
+  static std::unique_ptr<Implementation> made_of(SnapshotContents contents, std::vector<Extension> extensions,
+                                                 const Placement &placement, const Implementation *old);
   void take_buffers(const SnapshotContents &contents);
   void take_islands(const SnapshotContents &contents);
 

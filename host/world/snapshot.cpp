@@ -135,7 +135,7 @@ Specialisation get_special(ByteReader &reader, const Scene &scene)
 
 void put_special(ByteWriter &writer, const Specialisation &special, Features needed)
 {
-  const auto &[features, order, unbounded, large, awake, median] = special;
+  const auto &[features, order, unbounded, large, awake, median, worlds] = special;
   writer.put(names_of(needed));
   writer.put(order);
   writer.put(unbounded);
@@ -143,6 +143,7 @@ void put_special(ByteWriter &writer, const Specialisation &special, Features nee
   writer.put(awake);
   writer.put(median);
   static_cast<void>(features); /* follow from those needed and Settings::specialise */
+  static_cast<void>(worlds);   /* a batch has snapshots of its worlds alone */
 }
 
 BodyRegion region_at(const Specialisation &special, uint32_t index)
@@ -284,8 +285,6 @@ void check_partners(const ByteReader &reader, std::span<const std::byte> bytes, 
   for (const uint32_t body : words_in(bytes))
     if (body >= bodies) reader.fail(fmt::format("a cached pair has body {}, of {} bodies", body, bodies));
 }
-
-size_t item_bytes(Buffer buffer) { return row_of(buffer).per_item * size_of(row_of(buffer).element); }
 
 /* One by name, as it was written: the record of its row, and its bytes. */
 SavedBuffer get_buffer(ByteReader &reader)
@@ -528,6 +527,14 @@ std::unique_ptr<World::Implementation> World::Implementation::restored(std::span
   const minicl::ExactFloatingPoint environment;
   SnapshotContents contents = read_snapshot(snapshot, "snapshot");
   check_modules(contents.modules, extensions, "snapshot");
+  return made_of(std::move(contents), std::move(extensions), placement, old);
+}
+
+std::unique_ptr<World::Implementation> World::Implementation::made_of(SnapshotContents contents,
+                                                                      std::vector<Extension> extensions,
+                                                                      const Placement &placement,
+                                                                      const Implementation *old)
+{
   const uint32_t capacity = capacity_for(contents);
   contents.settings.extensions = std::move(extensions);
   auto world = std::make_unique<Implementation>(Beginning{std::move(contents.scene), std::move(contents.settings),

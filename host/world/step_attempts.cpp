@@ -13,19 +13,13 @@
 #include "host/pipeline/scene_counts.h"
 #include "host/world/batch_fault.h"
 #include "host/world/implementation.h"
+#include "host/world/quarantine_limits.h"
 
 namespace tandem {
 namespace {
 
-constexpr uint32_t lacks_pairs = STATUS_PAIRS | STATUS_CANDIDATES;
-constexpr uint32_t lacks_contacts = lacks_pairs | STATUS_ROUNDS | STATUS_COLORS | STATUS_WAKE;
-
 /* Each repetition fixes one cause; many repetitions in one step mean that something is wrong. */
 constexpr size_t most_repetitions = 64;
-
-/* So many bodies of a step that stop being finite are quarantined one at a time, with a repetition each, so that bodies
- * which one of them would have infected stay. After that, all bodies that are not finite are quarantined at once. */
-constexpr size_t taken_one_by_one = 32;
 
 constexpr uint32_t most_rounds = 1 << 20;
 
@@ -288,6 +282,7 @@ void World::Implementation::prepare_repetition(uint32_t status, bool &may_forget
  * or substeps says nothing of who is not finite after them; the repetition does, which has them. */
 void World::Implementation::quarantine_from(uint32_t code, uint32_t status)
 {
+  if (is_batch()) return quarantine_in_worlds(status);
   const uint32_t first = code & (body_numbers - 1), stage = code / body_numbers;
   if ((status & (lacks_contacts | STATUS_SUBSTEPS)) && stage > 0) return;
   quarantine(first, stage);

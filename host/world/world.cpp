@@ -54,6 +54,8 @@ World::World(std::span<const std::byte> snapshot, const Placement &placement, st
       [&] { return Implementation::restored(snapshot, std::move(extensions), placement, nullptr); });
 }
 
+World::World(std::unique_ptr<Implementation> implementation) : implementation_(std::move(implementation)) {}
+
 namespace {
 
 /* Runs a query of a world; if memory runs out, the message says what was requested and for how many bodies. */

@@ -106,12 +106,19 @@ SHARED void color_cells_group(GLOBAL const uint *pair_a, GLOBAL const uint *pair
   if (group >= counts[COUNT_BATCH_CELLS] || count == 0u) return;
   FOR_EACH_ITEM(round, CELL_ROUNDS + 1u) local_memory[round] = round == 0u ? count : 0u;
   for (uint round = 0u; round < CELL_ROUNDS; ++round) {
-    FOR_EACH_ITEM(k, count) place_bid(pair_a, pair_b, body_flags, pair_color, body_bid, round, sort_value[first + k]);
+    FOR_EACH_ITEM(k, count)
+    {
+      const uint pair = sort_value[first + k];
+      if (pair_color[pair] == COLOR_NONE)
+        place_bid(body_flags, body_bid, pair_a[pair], pair_b[pair], bid_of(pair), round);
+    }
     const uint active = local_memory[round] > 0u ? count : 0u;
     FOR_EACH_ITEM(k, active)
     {
       const uint pair = sort_value[first + k];
-      color_assign_item(pair_a, pair_b, body_flags, counts, pair_color, body_colors, body_bid, round, pair);
+      if (pair_color[pair] == COLOR_NONE)
+        assign_color(body_flags, counts, pair_color, body_colors, body_bid, pair_a[pair], pair_b[pair], bid_of(pair),
+                     round, pair);
       if (pair_color[pair] == COLOR_NONE) LOCAL_ADD(local_memory + round + 1u, 1u);
     }
   }

@@ -51,12 +51,16 @@ SHARED uint free_color(GLOBAL const uint *body_colors, uint a, uint moving_a, ui
   return lowest_free_color(low, high);
 }
 
-/* Even and odd rounds have separate bids, so that those of one can be cleared while those of the other are read. */
-SHARED void place_bid(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *body_flags,
-                      GLOBAL const uint *pair_color, GLOBAL uint *body_bid, uint round, uint i)
+/* In a batch of worlds a pair bids with its index within its world, so that a world has the colours that it has alone.
+ * Bids of two worlds may be equal, because they never meet at a body. */
+SHARED uint bid_in_world(GLOBAL const Parameters *parameters, read_world_pairs pairs, uint i)
 {
-  if (pair_color[i] != COLOR_NONE) return;
-  uint a = pair_a[i], b = pair_b[i], bid = bid_of(i);
+  return bid_of(HAS_FEATURE(parameters, WORLDS) ? i - pairs.start[pairs.world[2u * pairs.a[i]]] : i);
+}
+
+/* Even and odd rounds have separate bids, so that those of one can be cleared while those of the other are read. */
+SHARED void place_bid(GLOBAL const uint *body_flags, GLOBAL uint *body_bid, uint a, uint b, uint bid, uint round)
+{
   if (is_moving(body_flags, a)) ATOMIC_MAX(body_bid + 2u * a + (round & 1u), bid);
   if (is_moving(body_flags, b)) ATOMIC_MAX(body_bid + 2u * b + (round & 1u), bid);
 }
@@ -64,14 +68,14 @@ SHARED void place_bid(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOB
 /* A contact joins the overflow constraints at once if its bodies have all colours in use between them. If it waited for
  * a round, ten thousand contacts of one body would need ten thousand rounds, because one contact of a body wins
  * each. */
-SHARED void color_bid_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *body_flags,
+SHARED void color_bid_item(GLOBAL const Parameters *parameters, read_world_pairs pairs, GLOBAL const uint *body_flags,
                            GLOBAL const uint *body_colors, GLOBAL uint *counts, GLOBAL uint *pair_color,
                            GLOBAL uint *body_bid, uint round, uint i)
 {
   if (pair_color[i] != COLOR_NONE) return;
-  uint a = pair_a[i], b = pair_b[i];
+  uint a = pairs.a[i], b = pairs.b[i];
   if (free_color(body_colors, a, is_moving(body_flags, a), b, is_moving(body_flags, b)) != COLOR_OVERFLOW) {
-    place_bid(pair_a, pair_b, body_flags, pair_color, body_bid, round, i);
+    place_bid(body_flags, body_bid, a, b, bid_in_world(parameters, pairs, i), round);
     return;
   }
   pair_color[i] = COLOR_OVERFLOW;
@@ -90,12 +94,9 @@ SHARED uint wins_round(GLOBAL uint *body_bid, uint a, uint moving_a, uint b, uin
 }
 
 /* Only the winner of a body reads or writes the body's colours in this round. */
-SHARED void color_assign_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *body_flags,
-                              GLOBAL uint *counts, GLOBAL uint *pair_color, GLOBAL uint *body_colors,
-                              GLOBAL uint *body_bid, uint round, uint i)
+SHARED void assign_color(GLOBAL const uint *body_flags, GLOBAL uint *counts, GLOBAL uint *pair_color,
+                         GLOBAL uint *body_colors, GLOBAL uint *body_bid, uint a, uint b, uint bid, uint round, uint i)
 {
-  if (pair_color[i] != COLOR_NONE) return;
-  uint a = pair_a[i], b = pair_b[i], bid = bid_of(i);
   uint moving_a = is_moving(body_flags, a), moving_b = is_moving(body_flags, b);
   if (!wins_round(body_bid, a, moving_a, b, moving_b, bid, round)) return;
   uint color = free_color(body_colors, a, moving_a, b, moving_b);
@@ -104,6 +105,15 @@ SHARED void color_assign_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair
   if (moving_b) take_color(body_colors, b, color);
   ATOMIC_ADD(counts + COUNT_UNCOLORED, 0xffffffffu);
   ATOMIC_MAX(counts + COUNT_ROUNDS, round + 1u);
+}
+
+SHARED void color_assign_item(GLOBAL const Parameters *parameters, read_world_pairs pairs,
+                              GLOBAL const uint *body_flags, GLOBAL uint *counts, GLOBAL uint *pair_color,
+                              GLOBAL uint *body_colors, GLOBAL uint *body_bid, uint round, uint i)
+{
+  if (pair_color[i] != COLOR_NONE) return;
+  assign_color(body_flags, counts, pair_color, body_colors, body_bid, pairs.a[i], pairs.b[i],
+               bid_in_world(parameters, pairs, i), round, i);
 }
 
 /* The bodies of overflow constraints take the overflow bit, so that a body with no other constraint does not count as

@@ -14,6 +14,7 @@
 #include "shared/batching/match.h"
 #include "shared/batching/order.h"
 #include "shared/batching/single_group.h"
+#include "shared/batching/world_order.h"
 #endif
 
 #endif

@@ -21,12 +21,8 @@ SHARED uint first_not_below(GLOBAL const uint *sort_key, uint length, uint key)
   return low;
 }
 
-/* Item c writes the first constraint of colour c. The item of the overflow constraints, which count as a colour, also
- * writes where the constraints end. */
-SHARED void color_starts_item(GLOBAL const uint *sort_key, GLOBAL uint *counts, uint color)
+SHARED void store_color_range(GLOBAL uint *counts, uint color, uint start, uint end)
 {
-  uint pairs = counts[COUNT_PAIRS];
-  uint start = first_not_below(sort_key, pairs, color), end = first_not_below(sort_key, pairs, color + 1u);
   counts[COLOR_START + color] = start;
   if (end > start) ATOMIC_MAX(counts + COUNT_COLORS, color + 1u);
   if (color == COLOR_OVERFLOW) {
@@ -35,6 +31,15 @@ SHARED void color_starts_item(GLOBAL const uint *sort_key, GLOBAL uint *counts, 
     counts[COUNT_BODY_CONSTRAINTS] = 2u * end;
     counts[COUNT_OVERFLOW_BODY_CONSTRAINTS] = 2u * (end - start);
   }
+}
+
+/* Item c writes the first constraint of colour c. The item of the overflow constraints, which count as a colour, also
+ * writes where the constraints end. */
+SHARED void color_starts_item(GLOBAL const uint *sort_key, GLOBAL uint *counts, uint color)
+{
+  uint pairs = counts[COUNT_PAIRS];
+  store_color_range(counts, color, first_not_below(sort_key, pairs, color),
+                    first_not_below(sort_key, pairs, color + 1u));
 }
 
 #endif

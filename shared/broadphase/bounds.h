@@ -62,8 +62,9 @@ SHARED vec3 turned_extents(vec3 extent, real radius, real turn)
  * radius. The parameters are never assigned to, because rusticl passes two as one if the caller gives one vector
  * twice. */
 SHARED void store_bounds_of_step(GLOBAL const Parameters *parameters, GLOBAL const uint *body_flags,
-                                 GLOBAL const float4 *body_mass, GLOBAL float4 *bounds, uint_lanes i, vec3 center,
-                                 spatial_velocity m, vec3 below, vec3 above, real radius)
+                                 GLOBAL const float4 *body_mass, GLOBAL const float4 *body_gravity,
+                                 GLOBAL float4 *bounds, uint_lanes i, vec3 center, spatial_velocity m, vec3 below,
+                                 vec3 above, real radius)
 {
   real step = parameters->step, turn = length_of(m.angular) * step, margin = parameters->bounds_margin;
   vec3 spare = make_vec3(margin, margin, margin), rounding = rounding_of_bounds(center);
@@ -71,7 +72,7 @@ SHARED void store_bounds_of_step(GLOBAL const Parameters *parameters, GLOBAL con
   vec3 reach_above = add(add(turned_extents(above, radius, turn), spare), rounding);
 
   real fall = choose(m.inverse_mass > R(0.0), load_float4(body_mass, i * 2u).w * step * step, (real)R(0.0));
-  vec3 gravity = gravity_of(parameters);
+  vec3 gravity = gravity_at(parameters, body_gravity, i);
   vec3 displacement = scale(m.linear, step), fallen = add_scaled(displacement, gravity, fall);
   vec3 low =
       make_vec3(minimum(R(0.0), minimum(displacement.x, fallen.x)), minimum(R(0.0), minimum(displacement.y, fallen.y)),
@@ -94,14 +95,14 @@ SHARED void store_bounds_of_step(GLOBAL const Parameters *parameters, GLOBAL con
 
 SHARED void compute_bounds_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_flags,
                                 GLOBAL const float4 *body_shape, GLOBAL const float4 *body_shape_pose,
-                                GLOBAL const float4 *body_mass, GLOBAL const float4 *body_position,
-                                GLOBAL const float4 *body_orientation, GLOBAL const float4 *body_velocity,
-                                GLOBAL float4 *bounds, item_index i)
+                                GLOBAL const float4 *body_mass, GLOBAL const float4 *body_gravity,
+                                GLOBAL const float4 *body_position, GLOBAL const float4 *body_orientation,
+                                GLOBAL const float4 *body_velocity, GLOBAL float4 *bounds, item_index i)
 {
   vec4 size = load_float4(body_shape, i);
   mat3 rotation = rotation_of(quat_from(load_float4(body_orientation, i)));
   vec3 extent = half_extents_of_body(parameters, body_flags, body_shape_pose, i, xyz(size), rotation);
-  store_bounds_of_step(parameters, body_flags, body_mass, bounds, i, load_position(body_position, i).high,
+  store_bounds_of_step(parameters, body_flags, body_mass, body_gravity, bounds, i, load_position(body_position, i).high,
                        load_velocity(body_velocity, i), extent, extent, size.w);
 }
 

@@ -23,9 +23,9 @@ SHARED real reach_along(const convex *shape, vec3 direction)
 
 SHARED void tighten_bounds_item(GLOBAL const Parameters *parameters, read_shapes shapes, GLOBAL const uint *hull_header,
                                 GLOBAL const float4 *hull_vertex, GLOBAL const float4 *hull_chunk,
-                                GLOBAL const float4 *body_mass, GLOBAL const float4 *body_position,
-                                GLOBAL const float4 *body_orientation, GLOBAL const float4 *body_velocity,
-                                GLOBAL float4 *bounds, uint i)
+                                GLOBAL const float4 *body_mass, GLOBAL const float4 *body_gravity,
+                                GLOBAL const float4 *body_position, GLOBAL const float4 *body_orientation,
+                                GLOBAL const float4 *body_velocity, GLOBAL float4 *bounds, uint i)
 {
   uint kind = is_general_shape(shape_of(shapes.flags[i])) ? shapes.convex[2u * i] : (uint)SHAPE_COMPOUND;
   if (kind == (uint)SHAPE_MESH || kind == (uint)SHAPE_COMPOUND) return;
@@ -39,8 +39,8 @@ SHARED void tighten_bounds_item(GLOBAL const Parameters *parameters, read_shapes
   vec3 above = add(make_vec3(reach_along(&shape, x), reach_along(&shape, y), reach_along(&shape, z)), spare);
   vec3 below = add(
       make_vec3(reach_along(&shape, negate(x)), reach_along(&shape, negate(y)), reach_along(&shape, negate(z))), spare);
-  store_bounds_of_step(parameters, shapes.flags, body_mass, bounds, i, load_position(body_position, i).high,
-                       load_velocity(body_velocity, i), below, above, radius);
+  store_bounds_of_step(parameters, shapes.flags, body_mass, body_gravity, bounds, i,
+                       load_position(body_position, i).high, load_velocity(body_velocity, i), below, above, radius);
 }
 
 #endif

@@ -6,6 +6,7 @@
 
 #ifndef TANDEM_LANES /* ITEM and GROUP kernels take one item at a time */
 #include "shared/commands/apply_commands.h"
+#include "shared/commands/reset_worlds.h"
 #endif
 
 #endif

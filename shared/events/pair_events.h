@@ -2,7 +2,8 @@
  * be near.
  *
  * The merge of list.h runs over the pairs of this step and of the last committed one, by their presence alone; list.h
- * decides whether they touch. In scenes with trees a pair of bodies is near if some of its parts are.
+ * decides whether they touch. In scenes with trees a pair of bodies is near if some of its parts are. A world of a
+ * batch that was reset has pairs of no body in its cache (commands/reset_worlds.h), which are none.
  */
 #ifndef TANDEM_SHARED_EVENTS_PAIR_EVENTS_H
 #define TANDEM_SHARED_EVENTS_PAIR_EVENTS_H
@@ -28,7 +29,8 @@ SHARED void count_pair_events_item(GLOBAL const uint *pair_start, GLOBAL const u
 {
   pair_walk walk = walk_of(pair_start, cached_start, a);
   uint found = 0u;
-  for (; walk_goes_on(&walk); ++found) next_pair(&walk, pair_b, cached_b);
+  while (walk_goes_on(&walk))
+    if (next_pair(&walk, pair_b, cached_b).b != INDEX_NONE) ++found;
   pair_event_start[a] = found;
 }
 
@@ -37,11 +39,13 @@ SHARED void write_pair_events_item(GLOBAL const uint *pair_start, GLOBAL const u
                                    GLOBAL const uint *pair_event_start, GLOBAL uint *pair_event, uint a)
 {
   pair_walk walk = walk_of(pair_start, cached_start, a);
-  for (uint at = pair_event_start[a]; walk_goes_on(&walk); ++at) {
+  for (uint at = pair_event_start[a]; walk_goes_on(&walk);) {
     pair_change change = next_pair(&walk, pair_b, cached_b);
+    if (change.b == INDEX_NONE) continue;
     pair_event[3u * at] = change.kind;
     pair_event[3u * at + 1u] = a;
     pair_event[3u * at + 2u] = change.b;
+    ++at;
   }
 }
 

@@ -31,18 +31,19 @@ SHARED void apply_forces_item(GLOBAL const Parameters *parameters, GLOBAL const 
   vec3 force = xyz(load_float4(solver_force, i * 2u)), torque = xyz(load_float4(solver_force, i * 2u + 1u));
   m.linear = add_scaled(m.linear, force, m.inverse_mass * h);
   m.angular = add_scaled(m.angular, symmetric_times(load_inertia(solver_inertia, i), torque), h);
-  store_velocity_if(m.inverse_mass > R(0.0), solver_velocity, i, m);
+  mask pushed = is_nonzero(force) | is_nonzero(torque); /* adding 0 would turn -0 into +0 */
+  store_velocity_if(pushed & (m.inverse_mass > R(0.0)), solver_velocity, i, m);
 }
 
-SHARED void follow_forces_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_lock,
-                               GLOBAL const uint *body_falls, GLOBAL const memory_real *solver_free_power,
-                               GLOBAL const float4 *solver_velocity, GLOBAL const float4 *solver_force,
-                               GLOBAL float4 *solver_delta_pose, item_index i)
+SHARED void follow_forces_item(GLOBAL const Parameters *parameters, GLOBAL const float4 *body_gravity,
+                               GLOBAL const uint *body_lock, GLOBAL const uint *body_falls,
+                               GLOBAL const memory_real *solver_free_power, GLOBAL const float4 *solver_velocity,
+                               GLOBAL const float4 *solver_force, GLOBAL float4 *solver_delta_pose, item_index i)
 {
   spatial_velocity m = load_velocity(solver_velocity, i);
   real h = parameters->substep;
   mask free = (load_uint(body_falls, i) != 0u) & (m.inverse_mass > R(0.0)) &
-              is_left_alone(parameters, m, load_real(solver_free_power, i));
+              is_left_alone(parameters, gravity_at(parameters, body_gravity, i), m, load_real(solver_free_power, i));
   vec3 translation = xyz(load_float4(solver_delta_pose, i * 2u));
   vec3 force = xyz(load_float4(solver_force, i * 2u));
   if (HAS_FEATURE(parameters, LOCKS)) force = without_locked_axes(force, linear_locks(load_uint(body_lock, i)));

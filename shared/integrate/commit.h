@@ -38,14 +38,20 @@ SHARED void begin_step_item(GLOBAL uint *counts, uint i)
   counts[COUNT_LOAD_RATE] = 0u;
 }
 
+/* Where the step has moved a body. */
+SHARED mask moved_pose_is_finite(GLOBAL const float4 *body_position, GLOBAL const float4 *solver_delta_pose,
+                                 GLOBAL const float4 *solver_orientation, item_index i)
+{
+  vec3 position = moved_position(load_position(body_position, i), xyz(load_float4(solver_delta_pose, i * 2u))).high;
+  return is_finite(position) & quaternion_is_finite(load_float4(solver_orientation, i));
+}
+
 SHARED void check_bodies_item(GLOBAL const float4 *body_position, GLOBAL const float4 *solver_velocity,
                               GLOBAL const float4 *solver_delta_pose, GLOBAL const float4 *solver_orientation,
                               GLOBAL uint *counts, item_index i)
 {
-  spatial_velocity m = load_velocity(solver_velocity, i);
-  note_nonfinite(is_finite(m.linear) & is_finite(m.angular), counts, i, NONFINITE_IN_SOLVE);
-  vec3 position = moved_position(load_position(body_position, i), xyz(load_float4(solver_delta_pose, i * 2u))).high;
-  note_nonfinite(is_finite(position) & quaternion_is_finite(load_float4(solver_orientation, i)), counts, i,
+  note_nonfinite(velocity_is_finite(load_velocity(solver_velocity, i)), counts, i, NONFINITE_IN_SOLVE);
+  note_nonfinite(moved_pose_is_finite(body_position, solver_delta_pose, solver_orientation, i), counts, i,
                  NONFINITE_IN_INTEGRATE);
 }
 

@@ -7,6 +7,7 @@
 #include "shared/integrate/cache_rolling.h"
 #include "shared/integrate/clamp_speeds.h"
 #include "shared/integrate/commit.h"
+#include "shared/integrate/failed_bodies.h"
 #include "shared/integrate/lock_bodies.h"
 #include "shared/integrate/note_moved.h"
 #include "shared/integrate/positions.h"

@@ -82,26 +82,25 @@ SHARED spin turn_freely(quat q, vec3 angular, vec3 inverse_moments, real h)
 }
 
 /* free_power: velocity times gravity after the forces alone (integrate_velocities). */
-SHARED mask is_left_alone(GLOBAL const Parameters *parameters, spatial_velocity m, real free_power)
+SHARED mask is_left_alone(GLOBAL const Parameters *parameters, vec3 gravity, spatial_velocity m, real free_power)
 {
-  vec3 gravity = gravity_of(parameters);
   real borne = magnitude(dot3(gravity, m.linear) - free_power);
   return borne <= WEIGHTLESS * parameters->substep * length_squared(gravity);
 }
 
 SHARED void integrate_positions_item(GLOBAL const Parameters *parameters, GLOBAL const float4 *body_mass,
-                                     GLOBAL const uint *body_lock, GLOBAL const uint *body_falls,
-                                     GLOBAL const memory_real *solver_free_power, GLOBAL float4 *solver_velocity,
-                                     GLOBAL float4 *solver_delta_pose, GLOBAL float4 *solver_inertia,
-                                     GLOBAL float4 *solver_orientation, item_index i)
+                                     GLOBAL const float4 *body_gravity, GLOBAL const uint *body_lock,
+                                     GLOBAL const uint *body_falls, GLOBAL const memory_real *solver_free_power,
+                                     GLOBAL float4 *solver_velocity, GLOBAL float4 *solver_delta_pose,
+                                     GLOBAL float4 *solver_inertia, GLOBAL float4 *solver_orientation, item_index i)
 {
   spatial_velocity m = load_velocity(solver_velocity, i);
   real h = parameters->substep;
   vec4 mass = load_float4(body_mass, i * 2u);
+  vec3 gravity = gravity_at(parameters, body_gravity, i);
   mask falls = (load_uint(body_falls, i) != 0u) & (m.inverse_mass > R(0.0)) &
-               is_left_alone(parameters, m, load_real(solver_free_power, i));
+               is_left_alone(parameters, gravity, m, load_real(solver_free_power, i));
   real ahead = choose(falls, R(-0.5) * h * h * mass.w, (real)R(0.0));
-  vec3 gravity = gravity_of(parameters);
   uint_lanes locks = HAS_FEATURE(parameters, LOCKS) ? load_uint(body_lock, i) : (uint_lanes)0u;
   if (HAS_FEATURE(parameters, LOCKS)) gravity = without_locked_axes(gravity, linear_locks(locks));
 

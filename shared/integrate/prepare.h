@@ -18,6 +18,15 @@ SHARED void note_nonfinite(mask finite, GLOBAL uint *counts, uint_lanes body, ui
 
 SHARED mask quaternion_is_finite(vec4 q) { return is_finite(xyz(q)) & is_finite(make_vec3(q.w, q.w, q.w)); }
 
+SHARED mask velocity_is_finite(spatial_velocity m) { return is_finite(m.linear) & is_finite(m.angular); }
+
+SHARED mask state_is_finite(read_bodies bodies, item_index i)
+{
+  double_float3 position = load_position(bodies.position, i);
+  return velocity_is_finite(load_velocity(bodies.velocity, i)) & is_finite(position.high) & is_finite(position.low) &
+         quaternion_is_finite(load_float4(bodies.orientation, i));
+}
+
 SHARED void prepare_bodies_item(GLOBAL const float4 *body_mass, read_bodies bodies, GLOBAL uint *counts,
                                 GLOBAL float4 *solver_velocity, GLOBAL float4 *solver_delta_pose,
                                 GLOBAL float4 *warm_start_impulse, GLOBAL float4 *solver_inertia,
@@ -26,11 +35,8 @@ SHARED void prepare_bodies_item(GLOBAL const float4 *body_mass, read_bodies bodi
 {
   spatial_velocity m = load_velocity(bodies.velocity, i);
   vec4 orientation = load_float4(bodies.orientation, i);
-  double_float3 position = load_position(bodies.position, i);
   vec4 zero = make_vec4(R(0.0), R(0.0), R(0.0), R(0.0));
-  note_nonfinite(is_finite(m.linear) & is_finite(m.angular) & is_finite(position.high) & is_finite(position.low) &
-                     quaternion_is_finite(orientation),
-                 counts, i, NONFINITE_AT_START);
+  note_nonfinite(state_is_finite(bodies, i), counts, i, NONFINITE_AT_START);
   store_velocity(solver_velocity, i, m);
   store_float4(solver_delta_pose, i * 2u, zero);
   store_float4(solver_delta_pose, i * 2u + 1u, zero);

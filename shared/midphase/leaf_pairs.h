@@ -65,10 +65,11 @@ SHARED tree_body load_tree_body(const midphase_scene *scene, uint body, vec3 off
 
 /* The distance that a body with continuous collision may move within the step in any direction, because a contact may
  * deflect it; see store_bounds_of_step of broadphase/bounds.h. */
-SHARED real distance_anywhere(const midphase_scene *scene, spatial_velocity m)
+SHARED real distance_anywhere(const midphase_scene *scene, uint body, spatial_velocity m)
 {
   real step = scene->parameters->step;
-  return step * (length_of(m.linear) + step * length_of(gravity_of(scene->parameters)));
+  vec3 gravity = gravity_at(scene->parameters, scene->bodies.gravity, body);
+  return step * (length_of(m.linear) + step * length_of(gravity));
 }
 
 /* How far the parts of two bodies can approach each other in the step beyond their linear motion; see reach_of of
@@ -83,7 +84,7 @@ SHARED real midphase_margin(const midphase_scene *scene, uint a, uint b, vec3 of
                 R(1e-6) * (length_of(offset) + radius_a + radius_b);
   if (!HAS_FEATURE(scene->parameters, CONTINUOUS) || !is_continuous(scene->shapes.flags[a] | scene->shapes.flags[b]))
     return margin;
-  return margin + distance_anywhere(scene, velocity_a) + distance_anywhere(scene, velocity_b);
+  return margin + distance_anywhere(scene, a, velocity_a) + distance_anywhere(scene, b, velocity_b);
 }
 SHARED vec3 relative_motion(const midphase_scene *scene, uint from, uint of)
 {

@@ -276,7 +276,7 @@ SHARED moving_boxes load_boxes(GLOBAL const float4 *shapes, read_bodies bodies, 
 {
   vec4 shape_a = load_float4(shapes, a), shape_b = load_float4(shapes, b);
   moving_boxes pair;
-  pair.moves = load_pair_motion(bodies.velocity, parameters, a, b, shape_a.w, shape_b.w);
+  pair.moves = load_pair_motion(bodies, parameters, a, b, shape_a.w, shape_b.w);
   pair.boxes.a = oriented_box_of(load_float4(bodies.orientation, a), xyz(shape_a));
   pair.boxes.b = oriented_box_of(load_float4(bodies.orientation, b), xyz(shape_b));
   pair.boxes.offset = pair.boxes.normal = offset_between(bodies.position, a, b);

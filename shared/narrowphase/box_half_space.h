@@ -105,8 +105,8 @@ SHARED void collide_box_half_space_item(read_listed_pairs pairs, GLOBAL const ui
   box_and_plane pair = {oriented_box_of(load_float4(bodies.orientation, body), xyz(shape)),
                         offset_between(bodies.position, plane, body),
                         axis_y(rotation_of(quat_from(load_float4(bodies.orientation, plane)))), box_first};
-  pair_motion moves = load_pair_motion(bodies.velocity, parameters, a, b, choose(box_first, shape.w, zero),
-                                       choose(box_first, zero, shape.w));
+  pair_motion moves =
+      load_pair_motion(bodies, parameters, a, b, choose(box_first, shape.w, zero), choose(box_first, zero, shape.w));
   vec3 normal = choose3(box_first, negate(pair.outward), pair.outward);
   real reach = reach_of_pair(parameters, moves, normal);
   manifold m = box_plane_contact(pair, reach);

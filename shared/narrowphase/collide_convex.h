@@ -79,7 +79,7 @@ SHARED mask load_convex_query(convex_query *query, read_listed_part_pairs pairs,
 {
   uint a = pairs.a[pair], b = pairs.b[pair], shape_a = shape_of(shapes.flags[a]), shape_b = shape_of(shapes.flags[b]);
   real around_a = load_float4(shapes.size, a).w, around_b = load_float4(shapes.size, b).w;
-  query->moves = load_pair_motion(bodies.velocity, parameters, a, b, choose(shape_a == SHAPE_SPHERE, R(0.0), around_a),
+  query->moves = load_pair_motion(bodies, parameters, a, b, choose(shape_a == SHAPE_SPHERE, R(0.0), around_a),
                                   choose(shape_b == SHAPE_SPHERE, R(0.0), around_b));
   query->reach = widest_reach(parameters, query->moves);
   query->offset = offset_between(bodies.position, a, b);
@@ -186,7 +186,7 @@ SHARED void collide_convex_half_space_item(read_listed_part_pairs pairs, read_sh
   vec3 up = axis_y(rotation_of(quat_from(load_float4(bodies.orientation, plane)))),
        to_plane = offset_between(bodies.position, body, plane);
   real radius = load_float4(shapes.size, body).w, height = dot3(up, to_plane), least = least_size(&shape);
-  pair_motion moves = load_pair_motion(bodies.velocity, parameters, body, plane, radius, R(0.0));
+  pair_motion moves = load_pair_motion(bodies, parameters, body, plane, radius, R(0.0));
   real reach = reach_of_pair(parameters, moves, negate(up));
   manifold m = convex_on_half_space(&shape, up, height, reach);
 

@@ -111,7 +111,7 @@ SHARED void collide_sphere_box_item(read_listed_pairs pairs, GLOBAL const uint *
   real zero = R(0.0), radius = load_float4(shapes, sphere).x, least = minimum(radius, least_of(xyz(shape)));
   sphere_and_box pair = {offset_between(bodies.position, box, sphere), xyz(shape), radius,
                          rotation_of(quat_from(load_float4(bodies.orientation, box))), sphere_first};
-  pair_motion moves = load_pair_motion(bodies.velocity, parameters, a, b, choose(sphere_first, zero, shape.w),
+  pair_motion moves = load_pair_motion(bodies, parameters, a, b, choose(sphere_first, zero, shape.w),
                                        choose(sphere_first, shape.w, zero));
   manifold m = sphere_box_contact(pair);
   m = kept_within(m, reach_of_pair(parameters, moves, m.normal));

@@ -52,12 +52,14 @@ typedef struct {
   vec3 fall;
 } pair_motion;
 
-SHARED pair_motion load_pair_motion(GLOBAL const float4 *velocities, GLOBAL const Parameters *parameters, uint_lanes a,
-                                    uint_lanes b, real radius_a, real radius_b)
+SHARED pair_motion load_pair_motion(read_bodies bodies, GLOBAL const Parameters *parameters, uint_lanes a, uint_lanes b,
+                                    real radius_a, real radius_b)
 {
-  vec4 first_a = load_float4(velocities, a * 2u), second_a = load_float4(velocities, a * 2u + 1u);
-  vec4 first_b = load_float4(velocities, b * 2u), second_b = load_float4(velocities, b * 2u + 1u);
-  vec3 fall_a = mean_fall(parameters, first_a, second_a), fall_b = mean_fall(parameters, first_b, second_b);
+  vec4 first_a = load_float4(bodies.velocity, a * 2u), second_a = load_float4(bodies.velocity, a * 2u + 1u);
+  vec4 first_b = load_float4(bodies.velocity, b * 2u), second_b = load_float4(bodies.velocity, b * 2u + 1u);
+  vec3 gravity = gravity_at(parameters, bodies.gravity, a);
+  vec3 fall_a = mean_fall(parameters, gravity, first_a, second_a),
+       fall_b = mean_fall(parameters, gravity, first_b, second_b);
   pair_motion m = {velocity_of_float4s(first_a, second_a), velocity_of_float4s(first_b, second_b), radius_a, radius_b,
                    subtract(fall_a, fall_b)};
   m.a.linear = add(m.a.linear, fall_a);

@@ -159,12 +159,10 @@ SHARED body_pair load_body_pair(GLOBAL const uint *pair_a, GLOBAL const uint *pa
 }
 
 /* The acceleration of b relative to a along the normal under gravity. */
-SHARED real relative_pull(GLOBAL const Parameters *parameters, GLOBAL const float4 *body_mass, body_pair bodies,
-                          vec3 normal)
+SHARED real relative_pull(vec3 gravity, GLOBAL const float4 *body_mass, body_pair bodies, vec3 normal)
 {
   real a = choose(bodies.velocity_a.inverse_mass > R(0.0), load_float4(body_mass, bodies.a * 2u).w, (real)R(0.0));
   real b = choose(bodies.velocity_b.inverse_mass > R(0.0), load_float4(body_mass, bodies.b * 2u).w, (real)R(0.0));
-  vec3 gravity = gravity_of(parameters);
   real pull = (b - a) * dot3(gravity, normal);
   mask locked = (bodies.locks_a + bodies.locks_b) > R(0.0);
   if (!MAY_OCCUR(LOCKS) || !any_of(locked)) return pull;
@@ -276,7 +274,7 @@ SHARED real push_limit(GLOBAL const Parameters *parameters, real slop_or_deep)
 typedef struct {
   uint_lanes pair, points, feature;
   body_pair bodies;
-  vec3 normal;
+  vec3 normal, gravity;
   surface between;
   real size, pull;
   mask arms_stay;
@@ -307,7 +305,8 @@ SHARED contact_setup begin_setup(GLOBAL const Parameters *parameters, GLOBAL con
   s.between = surface_between(material, material_of(flags_a), material_of(flags_b));
   vec4 manifold = load_float4(manifolds.normal, pair);
   s.normal = xyz(manifold);
-  s.pull = relative_pull(parameters, touching.mass, s.bodies, s.normal);
+  s.gravity = gravity_at(parameters, touching.gravity, s.bodies.a);
+  s.pull = relative_pull(s.gravity, touching.mass, s.bodies, s.normal);
   vec3 passing = subtract(s.bodies.velocity_b.linear, s.bodies.velocity_a.linear);
   s.arms_stay = keeps_arms(manifold.w) | (length_of(passing) * parameters->substep > FOLLOWED_SHARE * s.size) |
                 one_is_driven_ball(s.bodies, shape_a, shape_b, flags_a, flags_b);
@@ -317,7 +316,8 @@ SHARED contact_setup begin_setup(GLOBAL const Parameters *parameters, GLOBAL con
   return s;
 }
 
-/* The impulses of the same pair in the last step. */
+/* The impulses of the same pair in the last step; 0 for a new one, so that no other pair's numbers decide the signs of
+ * zeros. */
 typedef struct {
   mask is_cached;
   uint_lanes feature;
@@ -330,7 +330,8 @@ SHARED old_impulses load_old_impulses(read_cached_contacts cached_contacts, uint
   uint_lanes from = choose(is_cached, cached, (uint_lanes)0u);
   old_impulses old = {is_cached, load_uint(cached_contacts.feature, from),
                       load_float4(cached_contacts.normal_impulse, from),
-                      load_float4(cached_contacts.friction_impulse, from)};
+                      choose4(is_cached, load_float4(cached_contacts.friction_impulse, from),
+                              make_vec4(R(0.0), R(0.0), R(0.0), R(0.0)))};
   return old;
 }
 
@@ -361,9 +362,9 @@ SHARED void prepare_point(GLOBAL const Parameters *parameters, const contact_set
 }
 
 /* Marks bodies that a contact bears, because they do not fall. */
-SHARED void mark_borne(GLOBAL const Parameters *parameters, const contact_setup *s, mask near, GLOBAL uint *body_falls)
+SHARED void mark_borne(const contact_setup *s, mask near, GLOBAL uint *body_falls)
 {
-  mask bears = near & bears_weight(gravity_of(parameters), s->normal);
+  mask bears = near & bears_weight(s->gravity, s->normal);
   atomic_clear_if(bears & (s->bodies.velocity_a.inverse_mass > R(0.0)), body_falls, s->bodies.a);
   atomic_clear_if(bears & (s->bodies.velocity_b.inverse_mass > R(0.0)), body_falls, s->bodies.b);
 }
@@ -416,7 +417,7 @@ SHARED void prepare_contacts_item(GLOBAL const Parameters *parameters, GLOBAL co
   for (uint k = 0; k < 4u; ++k)
     prepare_point(parameters, &s, &old, load_manifold_point(manifolds.points, planes, k, pair), k, planes, &points,
                   constraints.points, i);
-  mark_borne(parameters, &s, points.near, body_falls);
+  mark_borne(&s, points.near, body_falls);
   prepare_friction(parameters, &s, &old, manifolds.points, planes, constraints, i);
 
   store_uint(constraints.pair, i, pair);

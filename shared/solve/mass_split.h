@@ -333,8 +333,6 @@ SHARED impulse_sum add_term(impulse_sum sum, impulse_sum term, mask wanted, uint
   return result;
 }
 
-SHARED mask is_nonzero(vec3 v) { return (v.x != R(0.0)) | (v.y != R(0.0)) | (v.z != R(0.0)); }
-
 /* Joins the parts of a body. trees: whether the sums of bodies with long lists have been computed. */
 SHARED void split_apply_item(GLOBAL const uint *body_constraint_start, GLOBAL const uint *body_constraint,
                              GLOBAL const float4 *split_impulse, GLOBAL const float4 *split_partial,

@@ -24,7 +24,7 @@ Coloring coloring_of(World &world)
   Coloring coloring;
   coloring.a = memory.read<uint32_t>(Buffer::constraint_a, counts[COUNT_CONSTRAINTS]);
   coloring.b = memory.read<uint32_t>(Buffer::constraint_b, counts[COUNT_CONSTRAINTS]);
-  coloring.starts.assign(counts.begin() + COLOR_START, counts.end());
+  coloring.starts.assign(counts.begin() + COLOR_START, counts.begin() + COLOR_START + COLOR_ENTRIES);
   const auto velocity = memory.read<float4>(Buffer::body_velocity, 2 * counts[COUNT_BODIES]);
   for (size_t i = 0; i < velocity.size(); i += 2) coloring.moves.push_back(velocity[i].w > 0);
   return coloring;

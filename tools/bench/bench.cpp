@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <optional>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -20,6 +21,7 @@
 #include "tools/bench/sleeping.h"
 #include "tools/bench/snapshots.h"
 #include "tools/bench/support.h"
+#include "tools/bench/worlds.h"
 #include "tools/command/command.h"
 #include "tools/command/marked_table.h"
 #include "tools/command/measure.h"
@@ -194,6 +196,18 @@ int execute_bodies(const BenchOptions &options)
   return 0;
 }
 
+int execute_worlds(const BenchOptions &options)
+{
+  std::optional<uint32_t> worlds;
+  if (!options.count.empty()) worlds = static_cast<uint32_t>(whole_number("--n", options.count, 1, most_bodies / 16));
+  options.json.check();
+  const std::vector<WorldsTime> times = bench_worlds(options.on, worlds, options.inexact);
+  if (!options.json.takes_standard_output())
+    fmt::print("worlds on {}: medians, the wait for the device included\n{}", options.on, worlds_text(times));
+  options.json.write({{"what", options.what}, {"backend", options.on}, {"batches", worlds_json(times)}});
+  return 0;
+}
+
 /* The command line that repeats the run, for the page that gets its table. */
 std::string scenes_command_text(const BenchOptions &options)
 {
@@ -275,7 +289,7 @@ Json result_json(const BenchOptions &options, const Result &result)
 }
 
 constexpr const char *benchmarks = "sort, scan, broadphase, batching, narrowphase, rays, support, snapshots, "
-                                   "sleeping, bodies, scenes or step";
+                                   "sleeping, bodies, worlds, scenes or step";
 
 /* Throws InputError for options of one benchmark that are given to another. */
 void check_options(const BenchOptions &options)
@@ -306,6 +320,7 @@ int execute(const BenchOptions &options)
   if (options.what == "snapshots") return execute_snapshots(options);
   if (options.what == "sleeping") return execute_sleeping(options);
   if (options.what == "bodies") return execute_bodies(options);
+  if (options.what == "worlds") return execute_worlds(options);
   if (options.what == "scenes") return execute_scenes(options);
   const bool step = options.what == "step";
   if (!step && options.what != "sort" && options.what != "scan")
@@ -325,7 +340,7 @@ Command bench_command(CLI::App &parser)
 {
   CLI::App *command =
       parser.add_subcommand("bench", "time one part by itself: sort, scan, broadphase, batching, "
-                                     "narrowphase, rays, support, snapshots, sleeping, bodies, scenes, step");
+                                     "narrowphase, rays, support, snapshots, sleeping, bodies, worlds, scenes, step");
   auto options = std::make_shared<BenchOptions>();
   command
       ->add_option("WHAT", options->what,
@@ -333,7 +348,8 @@ Command bench_command(CLI::App &parser)
                    "(scenes of the talks; box-grid with --n), narrowphase (pairs of shapes), rays (against 100,000 "
                    "boxes), support (farthest vertices of hulls), snapshots (states kept on the device, and saved to "
                    "the host), sleeping (one island awake among bodies that sleep), bodies (that come and go, and "
-                   "one that is read), scenes (what every built-in scene takes: kernels, launches, memory, time), step "
+                   "one that is read), worlds (many small ones in a batch, and one after another), scenes (what every "
+                   "built-in scene takes: kernels, launches, memory, time), step "
                    "(box-grid)")
       ->required()
       ->type_name("");
@@ -341,8 +357,8 @@ Command bench_command(CLI::App &parser)
   command
       ->add_option("--n", options->count,
                    "how many: 1048576 keys, 1000 to 1000000 bodies of broadphase, 1000000 rays, 4096 pairs of each "
-                   "kind, 1000 to 100000 bodies of snapshots and sleeping, 1000 and 10000 of bodies, 1000 bodies of "
-                   "step unless given")
+                   "kind, 1000 to 100000 bodies of snapshots and sleeping, 1000 and 10000 of bodies, 1024 and 4096 "
+                   "worlds, 1000 bodies of step unless given")
       ->type_name("N");
   command->add_option("--pairs", options->pairs, "narrowphase: these kinds alone, as box-box,hull32-hull32")
       ->delimiter(',')

@@ -24,9 +24,9 @@ bool is_profiled(uint64_t step, uint64_t steps)
 
 class StageTimes {
 public:
-  void add(World &world)
+  void add(const std::vector<KernelTime> &times)
   {
-    for (const KernelTime &time : world.take_kernel_times()) {
+    for (const KernelTime &time : times) {
       if (time.launches == 0) continue;
       const Stage stage = row_of(time.kernel).stage;
       auto found = std::find_if(entries_.begin(), entries_.end(), [&](const Entry &entry) {
@@ -56,19 +56,9 @@ private:
   std::vector<Entry> entries_;
 };
 
-double profiled_step(World &world, StageTimes &stages)
-{
-  world.set_profiling(true);
-  world.take_kernel_times();
-  const double milliseconds = timed_step(world);
-  stages.add(world);
-  world.set_profiling(false);
-  return milliseconds;
-}
-
 } // namespace
 
-void prepare_for_timing(World &world)
+template <class Steps> void prepare_for_timing(Steps &world)
 {
   try {
     world.prepare_kernels();
@@ -77,7 +67,7 @@ void prepare_for_timing(World &world)
   }
 }
 
-double timed_step(World &world)
+template <class Steps> double timed_step(Steps &world)
 {
   using Clock = std::chrono::steady_clock;
   world.finish();
@@ -86,6 +76,20 @@ double timed_step(World &world)
   world.finish();
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
+
+namespace {
+
+template <class Steps> double profiled_step(Steps &world, StageTimes &stages)
+{
+  world.set_profiling(true);
+  world.take_kernel_times();
+  const double milliseconds = timed_step(world);
+  stages.add(world.take_kernel_times());
+  world.set_profiling(false);
+  return milliseconds;
+}
+
+} // namespace
 
 Spread spread_of(std::vector<double> values)
 {
@@ -101,7 +105,8 @@ Json spread_json(const Spread &spread)
   return {{"median", spread.median}, {"min", spread.minimum}, {"max", spread.maximum}};
 }
 
-Measurement measure(World &world, uint64_t steps, const std::function<void(uint64_t done)> &after_step)
+template <class Steps>
+Measurement measure(Steps &world, uint64_t steps, const std::function<void(uint64_t done)> &after_step)
 {
   std::vector<double> timed;
   StageTimes stages;
@@ -127,5 +132,13 @@ Measurement measure(World &world, uint64_t steps, const std::function<void(uint6
   result.stages = stages.per_step(result.profiled_steps);
   return result;
 }
+
+#define INSTANTIATE(Steps)                                \
+  template void prepare_for_timing<Steps>(Steps & world); \
+  template double timed_step<Steps>(Steps & world);       \
+  template Measurement measure<Steps>(Steps & world, uint64_t steps, const std::function<void(uint64_t)> &after_step);
+INSTANTIATE(World)
+INSTANTIATE(Worlds)
+#undef INSTANTIATE
 
 } // namespace tandem

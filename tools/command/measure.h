@@ -1,4 +1,4 @@
-/* measure.h - runs a world for some steps and times them.
+/* measure.h - runs a world, or a batch of worlds, for some steps and times them. `Steps` is World or Worlds.
  *
  *   steps   0 ....... N/2 ..........................  N - 1
  *           warm-up    timed, timed, ..., profiled (every 8th, left out of step_ms), timed ...
@@ -14,6 +14,7 @@
 #include <vector>
 
 #include <tandem/world.h>
+#include <tandem/worlds.h>
 
 #include "tools/command/output.h"
 
@@ -42,12 +43,13 @@ struct Measurement {
 
 /* Builds before what a long run builds while it runs, so that no timed step waits for it. Goes on without kernels that
  * cannot be built, and says so. */
-void prepare_for_timing(World &world);
+template <class Steps> void prepare_for_timing(Steps &world);
 
 /* The time of one step in ms; the clock is read with all devices finished. */
-double timed_step(World &world);
+template <class Steps> double timed_step(Steps &world);
 
 /* `after_step(done)` is called outside of the timed span. */
-Measurement measure(World &world, uint64_t steps, const std::function<void(uint64_t done)> &after_step);
+template <class Steps>
+Measurement measure(Steps &world, uint64_t steps, const std::function<void(uint64_t done)> &after_step);
 
 } // namespace tandem

@@ -20,7 +20,9 @@
 #include "tools/plot/image.h"
 #include "tools/replay/recording_file.h"
 #include "tools/run/event_file.h"
+#include "tools/run/stage_table.h"
 #include "tools/run/trace.h"
+#include "tools/run/worlds.h"
 
 namespace tandem {
 namespace {
@@ -28,6 +30,7 @@ namespace {
 struct RunOptions {
   explicit RunOptions(CLI::App &parser) : scene(parser, true) {}
   SceneOptions scene;
+  std::string worlds;
   std::string save, image, image_size = "960x540", camera, trace, events, record, record_snapshots;
   bool allow_quarantine = false;
   JsonOutput json;
@@ -35,6 +38,10 @@ struct RunOptions {
 
 void add_options(CLI::App &parser, RunOptions &options)
 {
+  parser
+      .add_option("--worlds", options.worlds,
+                  "so many copies of the scene, stepped together; step times are of all, the hash of the first")
+      ->type_name("N");
   parser.add_option("--save", options.save, "write the motion as an animation for any glTF viewer")->type_name("F.glb");
   CLI::Option *image =
       parser
@@ -136,14 +143,6 @@ struct Outcome {
   uint64_t hash, body_hash;
 };
 
-Json stages_json(const Measurement &measurement)
-{
-  Json stages = Json::array();
-  for (const StageTime &stage : measurement.stages)
-    stages.push_back({{"name", stage.name}, {"backend", stage.backend}, {"ms", stage.milliseconds}});
-  return stages;
-}
-
 Json outcome_json(const Outcome &outcome, World &world, const Placement &placement)
 {
   const Spread &step = outcome.measurement.step_milliseconds;
@@ -187,21 +186,6 @@ std::string launches_text(const World &world, const Measurement &measurement)
   const uint32_t groups = world.resident_groups();
   return fmt::format("{:.0f} a step", measurement.launches) +
          (groups > 1 ? fmt::format(", of up to {} work-groups that wait for each other", groups) : "");
-}
-
-std::string stage_table(const Measurement &measurement)
-{
-  Table table({"stage", "ms/step", "backend"});
-  double sum = 0;
-  for (const StageTime &stage : measurement.stages) {
-    table.add({stage.name, fmt::format("{:.3f}", stage.milliseconds), stage.backend});
-    sum += stage.milliseconds;
-  }
-  table.add({"kernels, sum", fmt::format("{:.3f}", sum), ""});
-  const Spread &step = measurement.step_milliseconds;
-  table.add({"whole step", fmt::format("{:.3f}", step.median), ""});
-  return table.text("  ") + fmt::format("  whole step: median of {} steps, {:.3f} to {:.3f} ms\n",
-                                        measurement.timed_steps, step.minimum, step.maximum);
 }
 
 std::string facts_table(const Outcome &outcome, World &world, const Placement &placement)
@@ -297,8 +281,36 @@ void start_recording(const RunOptions &options, World &world)
   world.start_recording(options.record, recording);
 }
 
+void refuse_files_of_one_world(const RunOptions &options)
+{
+  for (const auto &[option, file] :
+       {std::pair("--save", &options.save), std::pair("--image", &options.image), std::pair("--trace", &options.trace),
+        std::pair("--events", &options.events), std::pair("--record", &options.record)})
+    if (!file->empty()) throw InputError(fmt::format("--worlds: {} is of one world; leave one of the two out", option));
+}
+
+/* Many copies; the exit status is 1 if bodies did not stay finite, as in a run of one. */
+int execute_worlds(const RunOptions &options)
+{
+  refuse_files_of_one_world(options);
+  const auto count = static_cast<uint32_t>(whole_number("--worlds", options.worlds, 1, most_bodies));
+  const Placement placement = options.scene.placement();
+  DistinctFiles files;
+  check_files(options, files);
+  Worlds worlds(options.scene.scene(files), count, options.scene.settings(), placement);
+  const WorldsOutcome outcome = simulate_worlds(worlds, options.scene.scene_text(), options.scene.steps());
+  if (!options.json.takes_standard_output()) fmt::print("{}", worlds_text(outcome, worlds, placement));
+  options.json.write(worlds_json(outcome, worlds, placement));
+  if (outcome.statistics.nonfinite == 0 || options.allow_quarantine) return 0;
+  fmt::print(stderr,
+             "tandem: {} bodies did not stay finite, so this is no result; --allow-quarantine takes it for one\n",
+             outcome.statistics.nonfinite);
+  return 1;
+}
+
 int execute(const RunOptions &options)
 {
+  if (!options.worlds.empty()) return execute_worlds(options);
   Settings settings = options.scene.settings();
   settings.events = !options.events.empty();
   const Placement placement = options.scene.placement();

@@ -425,7 +425,9 @@ public:
   uint32_t scene_body(uint32_t buffer_index) const;
 
 private:
+  friend class Worlds; /* <tandem/worlds.h>: a batch of worlds is one of these, whose bodies are those of all */
   struct Implementation;
+  explicit World(std::unique_ptr<Implementation> implementation);
   std::unique_ptr<Implementation> implementation_;
 };
 

@@ -16,9 +16,18 @@ void solve(StepLaunches &step, MassSplit &overflow, uint32_t pass)
 
 /* The first substep starts from the impulses of the last step's contacts and therefore gets one more pass. That reduces
  * the penetration of a pile by a quarter, for an eighth of the cost of another substep (docs/departures.md). */
-uint32_t passes_of(const StepLaunches &step, const MassSplit &overflow, uint32_t substep)
+uint32_t passes_of(const StepLaunches &step, uint32_t substep)
 {
-  return (step.settings().iterations + (substep == 0 ? 1 : 0)) * overflow.turns();
+  return step.settings().iterations + (substep == 0 ? 1 : 0);
+}
+
+/* The further turns of overflow constraints are, of a batch of worlds, those of the worlds that have some. */
+void solve_in_turns(StepLaunches &step, MassSplit &overflow, uint32_t passes)
+{
+  for (uint32_t pass = 0; pass < passes; ++pass) solve(step, overflow, PASS_BIASED);
+  step.limit_to_worlds_with_overflow(step.has(FEATURE_WORLDS));
+  for (uint32_t pass = passes; pass < passes * overflow.turns(); ++pass) solve(step, overflow, PASS_BIASED);
+  step.limit_to_worlds_with_overflow(false);
 }
 
 /* Later substeps read the impulses of the colours from warm_start_impulse; the overflow constraints apply their own in
@@ -29,7 +38,7 @@ void launch_soft_step_substep(StepLaunches &step, MassSplit &overflow, uint32_t 
   if (substep == 0) step.for_each_color(Kernel::warm_start);
   overflow.warm_start();
   warm_start_rolling(step);
-  for (uint32_t turn = 0; turn < passes_of(step, overflow, substep); ++turn) solve(step, overflow, PASS_BIASED);
+  solve_in_turns(step, overflow, passes_of(step, substep));
   step.move_bodies();
   solve(step, overflow, substep + 1 < step.settings().substeps ? PASS_RELAXING : PASS_LAST);
 }

@@ -45,7 +45,7 @@ struct Buffers {
             filters.data(),
             body_trees.data(),
             {headers.data(), frames.data(), nodes.data(), leaves.data()},
-            {positions.data(), orientations.data(), velocities.data()}};
+            {positions.data(), orientations.data(), velocities.data(), nullptr}};
   }
 };
 

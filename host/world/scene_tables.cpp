@@ -1,0 +1,78 @@
+/* scene_tables.cpp - joins the tables of scenes, and takes them apart; see scene_tables.h. */
+#include "host/world/scene_tables.h"
+
+#include <algorithm>
+#include <memory>
+#include <tuple>
+
+namespace tandem {
+namespace {
+
+bool are_equal(const Shape &a, const Shape &b)
+{
+  return std::tie(a.type, a.size, a.hull, a.mesh, a.compound) == std::tie(b.type, b.size, b.hull, b.mesh, b.compound);
+}
+
+auto fields_of(const Material &m)
+{
+  return std::tie(m.name, m.static_friction, m.dynamic_friction, m.restitution, m.friction_combine,
+                  m.restitution_combine, m.rolling_friction, m.spinning_friction);
+}
+
+bool are_same(const Material &a, const Material &b) { return fields_of(a) == fields_of(b); }
+
+/* Children of compounds name materials of the scene, too. */
+Shape with_materials_from(uint32_t first, Shape shape)
+{
+  if (!shape.compound || first == 0) return shape;
+  auto moved = std::make_shared<Compound>(*shape.compound);
+  for (Child &child : moved->children)
+    if (child.material) *child.material += first;
+  shape.compound = std::move(moved);
+  return shape;
+}
+
+} // namespace
+
+void SceneTables::add_table(const Scene &scene, Scene &all)
+{
+  const auto first_shape = static_cast<uint32_t>(all.shapes.size()),
+             first_material = static_cast<uint32_t>(all.materials.size());
+  for (const Shape &shape : scene.shapes) all.shapes.push_back(with_materials_from(first_material, shape));
+  all.materials.insert(all.materials.end(), scene.materials.begin(), scene.materials.end());
+  tables_.push_back({scene.name, scene.shapes, scene.materials, first_shape, first_material});
+}
+
+/* Only the last table is looked at, so that adding takes the same time for each of many scenes. */
+void SceneTables::add(const Scene &scene, Scene &all)
+{
+  const auto has_tables = [&](const Table &table) {
+    return table.name == scene.name && std::ranges::equal(table.shapes, scene.shapes, are_equal) &&
+           std::ranges::equal(table.materials, scene.materials, are_same);
+  };
+  if (tables_.empty() || !has_tables(tables_.back())) add_table(scene, all);
+  table_of_.push_back(static_cast<uint32_t>(tables_.size() - 1));
+  for (Body body : scene.bodies) {
+    body.shape += tables_.back().first_shape;
+    body.material += tables_.back().first_material;
+    all.bodies.push_back(std::move(body));
+  }
+}
+
+Scene SceneTables::scene_of(uint32_t world, std::span<const Body> bodies, const Vec3 &gravity) const
+{
+  const Table &own = table(world);
+  Scene scene;
+  scene.name = own.name;
+  scene.gravity = gravity;
+  scene.shapes = own.shapes;
+  scene.materials = own.materials;
+  scene.bodies.assign(bodies.begin(), bodies.end());
+  for (Body &body : scene.bodies) {
+    body.shape -= own.first_shape;
+    body.material -= own.first_material;
+  }
+  return scene;
+}
+
+} // namespace tandem

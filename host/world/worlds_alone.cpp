@@ -1,0 +1,127 @@
+/* worlds_alone.cpp - worlds of a batch as they would be alone: their hashes, and a World that goes on from one. */
+#include <algorithm>
+
+#include "host/base/hash.h"
+#include "host/runtime/interface/floating_point.h"
+#include "host/world/worlds.h"
+
+namespace tandem {
+namespace {
+
+constexpr Buffer body_state[] = {Buffer::body_position, Buffer::body_orientation, Buffer::body_velocity};
+
+/* As hash_buffers computes it. */
+uint64_t hash_of_bodies(WorldReader &reader, const WorldPlace &place)
+{
+  uint64_t hash = 0;
+  for (const Buffer buffer : body_state) {
+    const std::vector<std::byte> rows = reader.items(buffer, place.first, place.bodies);
+    hash = hash_bytes(rows.data(), rows.size(), hash);
+  }
+  return hash;
+}
+
+} // namespace
+
+/* Whether the world alone would have the buffer: others may have brought it in. */
+bool Worlds::Implementation::has_alone(uint32_t number, Buffer buffer) const
+{
+  const Features feature = row_of(buffer).feature;
+  if (buffer == Buffer::body_force) return forced[number];
+  return feature == 0 || (feature & features[number]) != 0;
+}
+
+std::vector<Quarantine> Worlds::Implementation::quarantined(uint32_t number) const
+{
+  std::vector<Quarantine> own;
+  for (Quarantine taken : engine().quarantined) {
+    if (taken.body / bodies != number) continue;
+    taken.body -= number * bodies;
+    taken.step -= started[number];
+    own.push_back(std::move(taken));
+  }
+  return own;
+}
+
+uint64_t Worlds::Implementation::state_hash(WorldReader &reader, uint32_t number)
+{
+  uint64_t hash = 0;
+  for (const auto &[buffer, bytes] : reader.rows_of(place_of(number)))
+    if (has_alone(number, buffer)) hash = hash_bytes(bytes.data(), bytes.size(), hash);
+  for (const Quarantine &taken : quarantined(number)) hash = hash_bytes(&taken.body, sizeof taken.body, hash);
+  return hash;
+}
+
+std::unique_ptr<World::Implementation> Worlds::Implementation::alone(uint32_t number, const Placement &placement)
+{
+  const minicl::ExactFloatingPoint environment;
+  engine().settle();
+  WorldReader reader(engine().memory, engine().buffers.carried(), false);
+  const std::vector<WorldRow> rows = reader.rows_of(place_of(number));
+  SnapshotContents contents;
+  contents.settings = settings;
+  contents.scene = scene(number);
+  contents.special = specialise(contents.scene, settings);
+  contents.special.features = features[number];
+  contents.slots = BodySlots(bodies);
+  contents.quarantined = quarantined(number);
+  for (const Quarantine &taken : contents.quarantined) contents.slots.quarantine(taken.body);
+  contents.room = bodies;
+  contents.forces = forced[number];
+  contents.substeps = engine().plan.substeps;
+  contents.steps = steps(number);
+  for (const auto &[buffer, bytes] : rows) {
+    if (has_alone(number, buffer)) contents.buffers.push_back({buffer, bytes});
+    if (buffer == Buffer::cached_b) contents.pairs = static_cast<uint32_t>(bytes.size() / sizeof(uint32_t));
+  }
+  return World::Implementation::made_of(std::move(contents), {}, placement, nullptr);
+}
+
+uint64_t Worlds::body_hash(uint32_t world)
+{
+  implementation_->check_world("body_hash", world);
+  implementation_->engine().settle();
+  WorldReader reader(implementation_->engine().memory, implementation_->engine().buffers.carried(), false);
+  return hash_of_bodies(reader, implementation_->place_of(world));
+}
+
+std::vector<uint64_t> Worlds::body_hashes()
+{
+  implementation_->engine().settle();
+  WorldReader reader(implementation_->engine().memory, implementation_->engine().buffers.carried(), true);
+  std::vector<uint64_t> hashes;
+  for (uint32_t world = 0; world < count(); ++world)
+    hashes.push_back(hash_of_bodies(reader, implementation_->place_of(world)));
+  return hashes;
+}
+
+uint64_t Worlds::state_hash(uint32_t world)
+{
+  implementation_->check_world("state_hash", world);
+  implementation_->engine().settle();
+  WorldReader reader(implementation_->engine().memory, implementation_->engine().buffers.carried(), false);
+  return implementation_->state_hash(reader, world);
+}
+
+std::vector<uint64_t> Worlds::state_hashes()
+{
+  implementation_->engine().settle();
+  WorldReader reader(implementation_->engine().memory, implementation_->engine().buffers.carried(), true);
+  std::vector<uint64_t> hashes;
+  for (uint32_t world = 0; world < count(); ++world) hashes.push_back(implementation_->state_hash(reader, world));
+  return hashes;
+}
+
+std::unique_ptr<World> Worlds::alone(uint32_t world, const Placement &placement)
+{
+  implementation_->check_world("alone", world);
+  return std::unique_ptr<World>(new World(implementation_->alone(world, placement)));
+}
+
+std::vector<std::byte> Worlds::save(uint32_t world)
+{
+  implementation_->check_world("save", world);
+  return implementation_->alone(world, {"serial", {}})->save();
+}
+
+} // namespace tandem

@@ -1,0 +1,145 @@
+/* worlds_load.cpp - puts a world that was saved into a batch. Its cached pairs take the place of those of the world
+ * that it replaces, so those of the worlds behind move. */
+#include <algorithm>
+#include <cstring>
+
+#include <fmt/format.h>
+
+#include "host/runtime/interface/floating_point.h"
+#include "host/world/snapshot_scene.h"
+#include "host/world/worlds.h"
+
+namespace tandem {
+namespace {
+
+/* Scenes are equal if they would be saved alike; worlds of a batch have gravity of their own. */
+std::vector<std::byte> bytes_of(Scene scene)
+{
+  scene.gravity = {0, 0, 0};
+  scene.name.clear();
+  ByteWriter writer;
+  put_scene(writer, scene);
+  return writer.take();
+}
+
+/* The rows of a buffer with those of one world replaced; `rows` may be fewer or more than were there. */
+std::vector<std::byte> spliced(std::vector<std::byte> all, size_t begin, size_t end, std::span<const std::byte> rows)
+{
+  const auto first = all.begin() + static_cast<ptrdiff_t>(begin);
+  all.insert(all.erase(first, all.begin() + static_cast<ptrdiff_t>(end)), rows.begin(), rows.end());
+  return all;
+}
+
+void add_to_words(std::vector<std::byte> &bytes, uint32_t more)
+{
+  for (size_t at = 0; at < bytes.size(); at += sizeof(uint32_t)) {
+    uint32_t word = 0;
+    std::memcpy(&word, &bytes[at], sizeof word);
+    word += more;
+    std::memcpy(&bytes[at], &word, sizeof word);
+  }
+}
+
+std::span<const std::byte> bytes_in(const SnapshotContents &contents, Buffer buffer)
+{
+  const auto found = std::find_if(contents.buffers.begin(), contents.buffers.end(),
+                                  [&](const SavedBuffer &saved) { return saved.buffer == buffer; });
+  return found == contents.buffers.end() ? std::span<const std::byte>{} : found->bytes;
+}
+
+} // namespace
+
+void Worlds::Implementation::check_loaded(uint32_t number, const SnapshotContents &contents) const
+{
+  if (!contents.modules.empty() || !contents.islands.empty() || contents.substeps.automatic)
+    throw InputError("load: the snapshot is of a world with modules, sleep or substeps auto, which a batch has not");
+  const std::vector<BodyStatus> &status = contents.slots.status();
+  const bool has_free = std::find(status.begin(), status.end(), BodyStatus::free) != status.end();
+  const Scene own = scene(number);
+  if (has_free || bytes_of(contents.scene) != bytes_of(own) ||
+      contents.special.order != specialise(own, settings).order)
+    throw InputError(fmt::format("load: the snapshot is of another scene than that of world {}; shapes, materials, "
+                                 "starts and properties of bodies must be equal",
+                                 number));
+}
+
+/* The starts of the cached pairs, for the world and those behind it. */
+void Worlds::Implementation::load_starts(const CachedRange &old, uint32_t first, std::span<const std::byte> rows)
+{
+  const uint32_t all = engine().bodies();
+  std::vector<uint32_t> starts = engine().memory.read<uint32_t>(Buffer::cached_start, size_t{all} + 1);
+  std::vector<uint32_t> own(size_t{bodies} + 1);
+  std::memcpy(own.data(), rows.data(), std::min(rows.size(), own.size() * sizeof(uint32_t)));
+  for (uint32_t body = first + bodies; body <= all; ++body) starts[body] += own.back() - (old.end - old.begin);
+  for (uint32_t body = 0; body < bodies; ++body) starts[first + body] = old.begin + own[body];
+  engine().memory.upload(Buffer::cached_start, starts.data(), starts.size() * sizeof(uint32_t));
+}
+
+void Worlds::Implementation::load_pairs(uint32_t number, const SnapshotContents &contents)
+{
+  World::Implementation &all = engine();
+  const uint32_t first = number * bodies;
+  const auto starts = all.memory.read<uint32_t>(Buffer::cached_start, size_t{all.bodies()} + 1);
+  const CachedRange old{starts[first], starts[first + bodies]};
+  const uint64_t total = uint64_t{starts.back()} - (old.end - old.begin) + contents.pairs;
+  if (total > all.plan.capacity_pairs)
+    all.enlarge({static_cast<uint32_t>(room_for(total)), all.plan.capacity_candidates});
+  for (const CarriedBuffer &carried : all.buffers.carried()) {
+    if (row_of(carried.now).capacity != Capacity::PAIRS || all.memory.bytes(carried.now) == 0) continue;
+    const size_t item = item_bytes(carried.now);
+    const std::span<const std::byte> given = bytes_in(contents, carried.now);
+    std::vector<std::byte> rows(contents.pairs * item); /* zeros where the world alone has no such buffer */
+    std::copy(given.begin(), given.end(), rows.begin());
+    if (carried.now == Buffer::cached_b) add_to_words(rows, first);
+    const std::vector<std::byte> joined =
+        spliced(all.memory.read<std::byte>(carried.now, starts.back() * item), old.begin * item, old.end * item, rows);
+    all.memory.upload(carried.now, joined.data(), joined.size());
+  }
+  load_starts(old, first, bytes_in(contents, Buffer::cached_start));
+  all.cached_pairs = static_cast<uint32_t>(total);
+}
+
+void Worlds::Implementation::load_bodies(uint32_t number, const SnapshotContents &contents)
+{
+  World::Implementation &all = engine();
+  const uint32_t first = number * bodies;
+  if (contents.forces) all.use_forces();
+  for (const auto &[buffer, rows] : contents.buffers)
+    if (row_of(buffer).capacity == Capacity::BODIES && all.memory.bytes(buffer) > 0)
+      all.memory.upload(buffer, rows.data(), rows.size(), first * item_bytes(buffer));
+  StagedUploads uploads;
+  for (Quarantine taken : contents.quarantined) {
+    taken.body += first;
+    taken.step += started[number];
+    all.slots.quarantine(taken.body);
+    if (all.scene.bodies[taken.body].type == BodyType::dynamic) --all.awake_dynamics;
+    ++all.statistics.nonfinite;
+    stage_properties(uploads, all.scene, std::span(&taken.body, 1), all.index_of_body[taken.body], all.slots.status());
+    all.quarantined.push_back(std::move(taken));
+  }
+  uploads.write(all.memory);
+}
+
+/* The world is reset first, which leaves nothing of what it was. */
+void Worlds::Implementation::load(uint32_t number, std::span<const std::byte> snapshot)
+{
+  const minicl::ExactFloatingPoint environment;
+  const SnapshotContents contents = read_snapshot(snapshot, "load");
+  check_loaded(number, contents);
+  reset(std::span(&number, 1));
+  load_pairs(number, contents);
+  started[number] = engine().statistics.steps - contents.steps; /* modulo 2^64, as steps() */
+  load_bodies(number, contents);
+  gravity[number] = contents.scene.gravity;
+  upload_gravity(number, 1);
+  forced[number] = contents.forces;
+  features[number] |= contents.special.features;
+}
+
+void Worlds::load(uint32_t world, std::span<const std::byte> snapshot)
+{
+  implementation_->check_world("load", world);
+  implementation_->load(world, snapshot);
+}
+
+} // namespace tandem

@@ -1,0 +1,117 @@
+/* worlds_reset.cpp - what a batch uploads of its worlds, their gravity, and worlds that begin anew. */
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "host/base/finite_vector.h"
+#include "host/pipeline/scene_counts.h"
+#include "host/runtime/interface/floating_point.h"
+#include "host/world/worlds.h"
+
+namespace tandem {
+namespace {
+
+float4 row_of_gravity(const Vec3 &v) { return {v[0], v[1], v[2], 0}; }
+
+/* Above so many worlds their gravity is uploaded at once: each transfer takes as long as some thousands of rows. */
+constexpr size_t few_worlds = 16;
+
+} // namespace
+
+void Worlds::Implementation::upload_batch()
+{
+  const std::vector<uint32_t> &order = engine().special.order;
+  std::vector<uint32_t> ranges;
+  for (uint32_t index = 0; index < order.size(); ++index)
+    ranges.insert(ranges.end(), {index / bodies * bodies, index / bodies * bodies + bodies});
+  StagedUploads uploads;
+  uploads.add(Buffer::body_world, std::move(ranges));
+  stage_starts(uploads, engine().scene, order);
+  uploads.write(engine().memory);
+  upload_gravity(0, tables.worlds());
+}
+
+void Worlds::Implementation::upload_gravity(uint32_t first, uint32_t count)
+{
+  std::vector<float4> rows;
+  rows.reserve(size_t{count} * bodies);
+  for (uint32_t number = first; number < first + count; ++number)
+    rows.insert(rows.end(), bodies, row_of_gravity(gravity[number]));
+  if (!rows.empty())
+    engine().memory.upload(Buffer::body_gravity, rows.data(), rows.size() * sizeof(float4),
+                           size_t{first} * bodies * sizeof(float4));
+}
+
+void Worlds::set_gravity(std::span<const uint32_t> worlds, std::span<const Vec3> gravity)
+{
+  if (worlds.size() != gravity.size())
+    throw InputError(fmt::format("set_gravity: {} worlds and {} entries; one entry for each world is needed",
+                                 worlds.size(), gravity.size()));
+  for (size_t i = 0; i < worlds.size(); ++i) {
+    implementation_->check_world("set_gravity", worlds[i]);
+    if (!is_finite_vector(gravity[i]))
+      throw InputError(fmt::format("set_gravity: entry {}: gravity is {}; three finite numbers are needed", i,
+                                   vector_text(gravity[i])));
+  }
+  for (size_t i = 0; i < worlds.size(); ++i) implementation_->gravity[worlds[i]] = gravity[i];
+  if (worlds.size() > few_worlds) return implementation_->upload_gravity(0, count());
+  for (const uint32_t world : worlds) implementation_->upload_gravity(world, 1);
+}
+
+void Worlds::Implementation::reset(std::span<const uint32_t> given)
+{
+  std::vector<uint32_t> numbers(given.begin(), given.end());
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  World::Implementation &all = engine();
+  all.settle();
+  all.buffers.make_ready(all.sizes());
+  ++all.state;
+  take_out_of_quarantine(numbers);
+  if (!numbers.empty() && bodies > 0) launch_reset(numbers);
+  for (const uint32_t number : numbers) {
+    started[number] = all.statistics.steps;
+    forced[number] = false;
+  }
+}
+
+/* Bodies in quarantine are fixed and have lost their mass; they get all their rows again. */
+void Worlds::Implementation::take_out_of_quarantine(std::span<const uint32_t> numbers)
+{
+  World::Implementation &all = engine();
+  const auto begins_anew = [&](const Quarantine &taken) {
+    return std::binary_search(numbers.begin(), numbers.end(), taken.body / bodies);
+  };
+  StagedUploads uploads;
+  for (const Quarantine &taken : all.quarantined) {
+    if (!begins_anew(taken)) continue;
+    const uint32_t index = all.index_of_body[taken.body];
+    all.slots.release(taken.body);
+    if (all.scene.bodies[taken.body].type == BodyType::dynamic) ++all.awake_dynamics;
+    --all.statistics.nonfinite;
+    stage_states(uploads, all.scene, std::span(&taken.body, 1), index);
+    stage_properties(uploads, all.scene, std::span(&taken.body, 1), index, all.slots.status());
+  }
+  uploads.write(all.memory);
+  std::erase_if(all.quarantined, begins_anew);
+}
+
+void Worlds::Implementation::launch_reset(std::span<const uint32_t> numbers)
+{
+  World::Implementation &all = engine();
+  std::vector<uint32_t> firsts;
+  for (const uint32_t number : numbers) firsts.push_back(number * bodies);
+  const size_t bytes = firsts.size() * sizeof(uint32_t);
+  if (all.memory.bytes(Buffer::reset_world) < bytes) all.memory.resize(Buffer::reset_world, bytes + bytes / 2);
+  all.memory.upload(Buffer::reset_world, firsts.data(), bytes);
+  const auto items = static_cast<uint32_t>(firsts.size()) * bodies;
+  set_length(all.memory, items);
+  const auto launch = [&](Kernel kernel) {
+    all.launcher.launch({kernel, {}, {bodies}, COUNT_ZERO, COUNT_LENGTH, items});
+  };
+  launch(Kernel::reset_worlds);
+  if (settings.events) launch(Kernel::reset_touching);
+  if (all.plan.forces) launch(Kernel::reset_forces);
+}
+
+} // namespace tandem

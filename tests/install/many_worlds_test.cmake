@@ -1,0 +1,18 @@
+# many_worlds_test.cmake - the learner of docs/many-worlds.md, as it stands there, builds against the installed package
+# and prints what the page says: it learns to knock the stack down.
+include(${CMAKE_CURRENT_LIST_DIR}/steps.cmake)
+set(page ${CMAKE_CURRENT_LIST_DIR}/../../docs/many-worlds.md)
+set(project ${SCRATCH}/many-worlds)
+file(REMOVE_RECURSE ${project})
+take_examples(${page} 1 ${project})
+file(RENAME ${project}/many-worlds_1.inc ${project}/main.cpp)
+file(WRITE ${project}/CMakeLists.txt "cmake_minimum_required(VERSION 3.25)
+project(ManyWorlds LANGUAGES CXX)
+find_package(Tandem 0.1 REQUIRED)
+add_executable(learner main.cpp)
+target_link_libraries(learner PRIVATE Tandem::tandem)
+")
+configure(${project} ${project}/build)
+step(${CMAKE_COMMAND} --build ${project}/build)
+run(${project}/build/learner printed)
+must_show(${page} "what its learner prints" "\n```\n${printed}```\n")
