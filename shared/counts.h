@@ -46,6 +46,7 @@ enum {
   COUNT_BODY_PAIRS,       /* in scenes with trees: pairs of bodies; the pairs are then those of their leaves */
   COUNT_PAIR_GROUP_ITEMS, /* TILE times the groups of pairs of bodies: midphase/subtree_pairs.h */
   CAPACITY_PAIRS,         /* capacity for pairs; also the stride of manifold and constraint rows */
+  CAPACITY_CANDIDATES,    /* of the broadphase trees: capacity for pairs of fat boxes; the host writes both at once */
   COUNT_CACHED_PAIRS,     /* pairs of the last committed step */
   COUNT_CONSTRAINTS,      /* touching pairs, in colour order */
   COUNT_UNCOLORED,        /* touching pairs without a colour so far */
@@ -64,7 +65,6 @@ enum {
   COUNT_CELLS_PLUS_ONE,
   CAPACITY_CELLS,
   CAPACITY_POINTS,      /* 4, or 1 where only balls touch: planes of the contact points of pairs (point_rows.h) */
-  CAPACITY_CANDIDATES,  /* of the broadphase trees: capacity for pairs of fat boxes */
   COUNT_SHARES,         /* four times the bodies: work-items of the windowed sweep; set by the host */
   COUNT_SWEEP_BLOCKS,   /* groups of it, of SWEEP_BLOCK bodies each */
   COUNT_SWEEP_ITEMS,    /* TILE times as many: a group a block */

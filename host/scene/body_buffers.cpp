@@ -297,15 +297,15 @@ void stage_states(StagedUploads &uploads, const Scene &scene, std::span<const ui
   states.stage(uploads, first);
 }
 
-void stage_starts(StagedUploads &uploads, const Scene &scene, const std::vector<uint32_t> &order)
+void stage_starts(StagedUploads &uploads, const Scene &scene, std::span<const uint32_t> order, uint32_t first)
 {
   StateRows states;
   for (const uint32_t body : order) states.add(scene.bodies[body]);
   std::vector<float4> poses;
   for (size_t i = 0; i < order.size(); ++i)
     poses.insert(poses.end(), {states.position[2 * i], states.position[2 * i + 1], states.orientation[i]});
-  uploads.add(Buffer::start_pose, std::move(poses));
-  uploads.add(Buffer::start_velocity, std::move(states.velocity));
+  uploads.add(Buffer::start_pose, std::move(poses), first);
+  uploads.add(Buffer::start_velocity, std::move(states.velocity), first);
 }
 
 void stage_free_rows(StagedUploads &uploads, uint32_t first, uint32_t bodies)

@@ -44,7 +44,7 @@ void stage_fixed_rows(StagedUploads &uploads, const Scene &scene, const HullNumb
 /* Stages the initial state of bodies, to the indices from `first` on. */
 void stage_states(StagedUploads &uploads, const Scene &scene, std::span<const uint32_t> bodies, uint32_t first);
 /* Stages where a reset puts the bodies of a batch of worlds. */
-void stage_starts(StagedUploads &uploads, const Scene &scene, const std::vector<uint32_t> &order);
+void stage_starts(StagedUploads &uploads, const Scene &scene, std::span<const uint32_t> order, uint32_t first = 0);
 /* Makes slots free: points at rest that take part in nothing, where the bodies were. */
 void stage_free_rows(StagedUploads &uploads, uint32_t first, uint32_t bodies);
 void stage_materials(StagedUploads &uploads, const Scene &scene);

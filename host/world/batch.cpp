@@ -23,23 +23,39 @@ void World::Implementation::quarantine_in_worlds(uint32_t status)
   const uint32_t all = bodies(), of_world = bodies_of_world();
   launcher.launch({Kernel::find_failed_bodies, {}, {}, COUNT_ZERO, COUNT_BODIES, all});
   const auto failed = memory.read<uint32_t>(Buffer::body_failed, all);
-  for (uint32_t first = 0; first < all; first += of_world)
-    quarantine_of_world(std::span(failed).subspan(first, of_world), first, (status & lacks_contacts) != 0);
+  std::vector<uint32_t> taken(all / of_world);
+  for (const auto &[index, record] : taken_out) ++taken[index / of_world];
+  const bool takes_all =
+      std::any_of(taken.begin(), taken.end(), [](uint32_t count) { return count >= taken_one_by_one; });
+  const std::vector<uint32_t> not_finite = takes_all ? bodies_not_finite(memory, all) : std::vector<uint32_t>{};
+  for (uint32_t first = 0; first < all; first += of_world) {
+    const auto worst =
+        quarantine_worst(std::span(failed).subspan(first, of_world), first, (status & lacks_contacts) != 0);
+    if (worst && taken[first / of_world] >= taken_one_by_one) quarantine_others(*worst, first, not_finite);
+  }
   forget_kept(memory);
 }
 
 /* failed: 1 + the stage, by body of the world, or 0. */
-void World::Implementation::quarantine_of_world(std::span<const uint32_t> failed, uint32_t first, bool lacks_contacts)
+std::optional<World::Implementation::FailedBody>
+World::Implementation::quarantine_worst(std::span<const uint32_t> failed, uint32_t first, bool lacks_contacts)
 {
   const auto before = [](uint32_t one, uint32_t other) { return one - 1 < other - 1; }; /* 0 is after all stages */
   const auto worst = std::min_element(failed.begin(), failed.end(), before);
-  if (*worst == 0 || (lacks_contacts && *worst - 1 > NONFINITE_AT_START)) return;
-  const auto place = [&](auto at) { return first + static_cast<uint32_t>(at - failed.begin()); };
-  quarantine(place(worst), *worst - 1);
-  const auto is_here = [&](const auto &taken) { return taken.first >= first && taken.first - first < failed.size(); };
-  if (std::count_if(taken_out.begin(), taken_out.end(), is_here) <= std::ptrdiff_t{taken_one_by_one}) return;
-  for (const uint32_t body : bodies_not_finite(memory, bodies()))
-    if (body >= first && body - first < failed.size() && body != place(worst)) quarantine(body, *worst - 1);
+  if (*worst == 0 || (lacks_contacts && *worst - 1 > NONFINITE_AT_START)) return std::nullopt;
+  const FailedBody found{first + static_cast<uint32_t>(worst - failed.begin()), *worst - 1};
+  quarantine(found.body, found.stage);
+  return found;
+}
+
+/* So many bodies of the world were taken one by one that the rest of them is taken at once. not_finite: ascending. */
+void World::Implementation::quarantine_others(const FailedBody &worst, uint32_t first,
+                                              std::span<const uint32_t> not_finite)
+{
+  const auto begin = std::lower_bound(not_finite.begin(), not_finite.end(), first),
+             end = std::lower_bound(begin, not_finite.end(), first + bodies_of_world());
+  for (const uint32_t body : std::span(begin, end))
+    if (body != worst.body) quarantine(body, worst.stage);
 }
 
 } // namespace tandem

@@ -175,6 +175,13 @@ std::vector<BodyState> World::Implementation::read(std::span<const BodyId> ids)
   return states;
 }
 
+void World::Implementation::check_states(const char *call, std::span<const BodyId> ids,
+                                         std::span<const BodyState> states) const
+{
+  slots_of(call, ids);
+  check_entries(call, ids.size(), states);
+}
+
 void World::Implementation::set_states(std::span<const BodyId> ids, std::span<const BodyState> states)
 {
   const std::vector<uint32_t> called = slots_of("set_states", ids);

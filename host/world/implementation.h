@@ -145,7 +145,11 @@ struct World::Implementation {
   uint32_t bodies_of_world() const { return bodies() / special.worlds; }
   void note_batch(Recorder &recorder) const;
   void quarantine_in_worlds(uint32_t status);
-  void quarantine_of_world(std::span<const uint32_t> failed, uint32_t first, bool lacks_contacts);
+  struct FailedBody {
+    uint32_t body, stage;
+  };
+  std::optional<FailedBody> quarantine_worst(std::span<const uint32_t> failed, uint32_t first, bool lacks_contacts);
+  void quarantine_others(const FailedBody &worst, uint32_t first, std::span<const uint32_t> not_finite);
 
   /* --- a world as bytes: snapshot.cpp ---------------------------------------------------------------------------- */
   std::vector<std::byte> save(std::vector<std::byte> memory = {}); /* memory: is used again */
@@ -188,6 +192,7 @@ struct World::Implementation {
   std::vector<uint32_t> slots_of(const char *call, std::span<const BodyId> ids) const;
   void wake_called();
   std::vector<BodyState> read(std::span<const BodyId> ids);
+  void check_states(const char *call, std::span<const BodyId> ids, std::span<const BodyState> states) const;
   void set_states(std::span<const BodyId> ids, std::span<const BodyState> states);
   void set_velocities(std::span<const BodyId> ids, std::span<const Velocity> velocities);
   void move_to(std::span<const BodyId> ids, std::span<const Pose> poses);
@@ -198,6 +203,7 @@ struct World::Implementation {
   /* --- properties that change: properties.cpp -------------------------------------------------------------------- */
   void set_properties(std::span<const BodyId> ids, std::span<const BodyProperties> properties);
   void write_properties(std::span<const uint32_t> slots);
+  void forget_colors(std::span<const uint32_t> freed);
 
   /* --- shapes of bodies that come and go: shapes.cpp -------------------------------------------------------------- */
   std::vector<ShapeId> shapes_of(const BodyId &id);

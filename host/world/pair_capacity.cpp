@@ -80,9 +80,10 @@ void World::Implementation::enlarge(const PairCapacity &wanted)
     record_kernels();
     place_again();
     forget_kept(memory);
+    structure_state = 0; /* what queries traverse is laid out anew, too */
     buffers.make_ready(sizes());
-    set_count(memory, CAPACITY_PAIRS, wanted.pairs);
-    set_count(memory, CAPACITY_CANDIDATES, wanted.candidates);
+    static_assert(CAPACITY_CANDIDATES == CAPACITY_PAIRS + 1);
+    memory.upload(Buffer::counts, &wanted, sizeof wanted, CAPACITY_PAIRS * sizeof(uint32_t));
   } catch (const OutOfMemory &error) {
     give_up();
     throw OutOfMemory(
@@ -100,8 +101,8 @@ void World::Implementation::reserve_pairs(uint32_t pairs)
   if (pairs > settings.max_pairs)
     throw InputError(
         fmt::format("reserve_pairs: {} pairs; {} are the most (Settings::max_pairs)", pairs, settings.max_pairs));
-  enlarge({pairs, std::max(pairs, plan.capacity_candidates)});
   forget_contacts();
+  enlarge({pairs, std::max(pairs, plan.capacity_candidates)});
 }
 
 /* States that were kept have their pairs, too. */
@@ -114,12 +115,13 @@ void World::Implementation::shrink_to_fit()
   const auto at_most = [](uint64_t wanted, uint32_t most) {
     return static_cast<uint32_t>(std::min<uint64_t>(wanted, most));
   };
+  forget_contacts();
   enlarge({at_most(room_for(pairs) + least_pairs, plan.capacity_pairs),
            at_most(room_for(candidates) + least_pairs, plan.capacity_candidates)});
-  forget_contacts();
 }
 
-/* The lists of the last step lie in buffers that were laid out anew. */
+/* The lists of the last step lie in buffers that are laid out anew. This comes before, because a layout that fails half
+ * way has lost some of them. */
 void World::Implementation::forget_contacts()
 {
   for (const uint32_t entry : {COUNT_PAIRS, COUNT_CONSTRAINTS, COUNT_EVENTS, COUNT_PAIR_EVENTS})

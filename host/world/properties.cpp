@@ -73,6 +73,16 @@ ChangedBodies changed_by(const Scene &scene, const Settings &settings, std::span
   return result;
 }
 
+/* The bodies that become dynamic. */
+std::vector<uint32_t> freed_by(const Scene &scene, const ChangedBodies &changed)
+{
+  std::vector<uint32_t> freed;
+  for (size_t i = 0; i < changed.slots.size(); ++i)
+    if (changed.bodies[i].type == BodyType::dynamic && scene.bodies[changed.slots[i]].type != BodyType::dynamic)
+      freed.push_back(changed.slots[i]);
+  return freed;
+}
+
 /* Calls work(first, end) for each range of indices that is written at once. */
 template <class Work> void for_each_range(std::span<const uint32_t> sorted, const Work &work)
 {
@@ -114,6 +124,7 @@ void World::Implementation::set_properties(std::span<const BodyId> ids, std::spa
   wake_bodies(changed.slots, true);
   buffers.make_ready(sizes());
   commands.prepare(changed.slots.size());
+  const std::vector<uint32_t> freed = freed_by(scene, changed);
   PlacedBodies placed(scene, changed.slots, changed.bodies);
   try {
     if (brings_features(changed.slots)) lay_out_anew();
@@ -124,10 +135,30 @@ void World::Implementation::set_properties(std::span<const BodyId> ids, std::spa
   }
   placed.keep();
   ring.forget("properties of bodies were changed");
+  forget_colors(freed);
   if (settings.sleeping) recount_motion();
   for (const uint32_t slot : changed.slots)
     if (slots.status()[slot] != BodyStatus::quarantined)
       commands.add(slot, COMMAND_SET_MASS, mass_command_of(scene.bodies[slot]));
+}
+
+/* Contacts of a body that cannot be pushed may share a colour, which they must not keep when it can be. */
+void World::Implementation::forget_colors(std::span<const uint32_t> freed)
+{
+  if (freed.empty()) return;
+  std::vector<bool> is_freed(special.awake);
+  for (const uint32_t slot : freed)
+    if (index_of_body[slot] < special.awake) is_freed[index_of_body[slot]] = true;
+  const auto starts = memory.read<uint32_t>(Buffer::cached_start, size_t{special.awake} + 1);
+  const auto partners = memory.read<uint32_t>(Buffer::cached_b, starts.back());
+  auto colors = memory.read<uint32_t>(Buffer::cached_color, starts.back());
+  const auto touches = [&](uint32_t body, uint32_t pair) {
+    return is_freed[body] || (partners[pair] < is_freed.size() && is_freed[partners[pair]]);
+  };
+  for (uint32_t body = 0; body < special.awake; ++body)
+    for (uint32_t pair = starts[body]; pair < starts[body + 1]; ++pair)
+      if (touches(body, pair) && colors[pair] < COLOR_NONE) colors[pair] = COLOR_NONE;
+  memory.upload(Buffer::cached_color, colors.data(), colors.size() * sizeof(uint32_t));
 }
 
 void World::Implementation::write_properties(std::span<const uint32_t> changed)

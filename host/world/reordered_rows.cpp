@@ -46,7 +46,8 @@ std::vector<uint32_t> ReorderedRows::starts_of(Memory &memory, Buffer buffer) co
 std::vector<uint32_t> ReorderedRows::indices_of(Memory &memory, Buffer buffer, uint32_t count) const
 {
   auto values = memory.read<uint32_t>(buffer, count);
-  for (uint32_t &value : values) value = new_of_old_[value];
+  for (uint32_t &value : values)
+    if (value != INDEX_NONE) value = new_of_old_[value]; /* a pair of a world that was reset has no partner */
   return values;
 }
 

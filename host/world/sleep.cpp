@@ -373,8 +373,8 @@ void World::Implementation::wake(const std::set<uint32_t> &islands)
   size_t pairs = memory.read<uint32_t>(Buffer::cached_start, 1, special.awake).front();
   for (const uint32_t island : islands) pairs += sleepers.all().at(island).pairs.size();
   if (pairs > plan.capacity_pairs) {
-    enlarge({static_cast<uint32_t>(std::min<uint64_t>(room_for(pairs), most_pairs)), plan.capacity_candidates});
     forget_contacts();
+    enlarge({static_cast<uint32_t>(std::min<uint64_t>(room_for(pairs), most_pairs)), plan.capacity_candidates});
   }
   keep_order_of_events();
   std::vector<SleepingIsland> woken;

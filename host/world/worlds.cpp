@@ -72,7 +72,12 @@ Worlds::Implementation::Implementation(std::span<const Scene> scenes, uint32_t c
     }
   }
   started.resize(tables.worlds());
+  entered.resize(tables.worlds());
   forced.resize(tables.worlds());
+  if (all.materials.size() > MOST_MATERIALS)
+    throw InputError(fmt::format("worlds: the scenes have {} materials; at most {} in all, and scenes that follow one "
+                                 "another and have the same count once",
+                                 all.materials.size(), MOST_MATERIALS));
   const Settings used = settings_of_batch(settings);
   Specialisation special = specialise_worlds(all, tables.worlds(), used);
   const auto count = static_cast<uint32_t>(all.bodies.size());
@@ -162,6 +167,7 @@ void Worlds::reset(std::span<const uint32_t> worlds, std::span<const BodyState> 
   std::vector<WorldBody> put;
   for (const uint32_t world : worlds)
     for (uint32_t body = 0; body < bodies; ++body) put.push_back({world, body});
+  implementation_->engine().check_states("reset", implementation_->ids_of("reset", put), states);
   reset(worlds);
   set_states(put, states);
 }
@@ -216,6 +222,11 @@ void Worlds::set_properties(std::span<const WorldBody> bodies, std::span<const B
   const std::vector<BodyId> ids = own.ids_of("set_properties", bodies);
   std::vector<BodyProperties> in_all(properties.begin(), properties.end());
   for (size_t i = 0; i < std::min(ids.size(), in_all.size()); ++i) {
+    if (in_all[i].continuous)
+      throw InputError(
+          fmt::format("set_properties: entry {}: continuous: bodies of a batch keep what their scene says, "
+                      "because their order follows from it",
+                      i));
     if (!in_all[i].material) continue;
     const uint32_t world = bodies[i].world;
     if (*in_all[i].material >= own.tables.materials(world))
@@ -224,6 +235,7 @@ void Worlds::set_properties(std::span<const WorldBody> bodies, std::span<const B
     *in_all[i].material += own.tables.first_material(world);
   }
   own.world->set_properties(ids, in_all);
+  own.upload_starts(ids);
   for (const WorldBody &body : bodies) own.features[body.world] |= features_of(own.scene(body.world), own.settings);
 }
 
@@ -256,7 +268,7 @@ template <class Event> WorldEvents<Event> Worlds::Implementation::by_world(std::
   for (uint32_t number = 0; number < tables.worlds(); ++number) {
     const uint32_t end = (number + 1) * bodies;
     for (; at < events.size() && first_body_of(events[at]) < end; ++at) {
-      if (steps(number) == 0) continue;
+      if (engine().statistics.steps == entered[number]) continue;
       result.all.push_back(std::move(events[at]));
       number_from(number * bodies, result.all.back());
     }

@@ -35,6 +35,7 @@ struct Worlds::Implementation {
   /* --- own gravity and starts: worlds_reset.cpp --- */
   void upload_batch();
   void upload_gravity(uint32_t first, uint32_t count);
+  void upload_starts(std::span<const BodyId> changed);
   void reset(std::span<const uint32_t> given);
   void take_out_of_quarantine(std::span<const uint32_t> numbers); /* numbers: ascending, as below */
   void launch_reset(std::span<const uint32_t> numbers);
@@ -42,7 +43,7 @@ struct Worlds::Implementation {
   /* --- worlds as they would be alone: worlds_alone.cpp --- */
   bool has_alone(uint32_t number, Buffer buffer) const;
   std::vector<Quarantine> quarantined(uint32_t number) const;
-  uint64_t state_hash(WorldReader &reader, uint32_t number);
+  uint64_t state_hash(WorldReader &reader, uint32_t number, std::span<const Quarantine> own);
   std::unique_ptr<World::Implementation> alone(uint32_t number, const Placement &placement);
 
   /* --- a world that was saved: worlds_load.cpp --- */
@@ -50,6 +51,7 @@ struct Worlds::Implementation {
     uint32_t begin, end; /* of the cached pairs */
   };
   void check_loaded(uint32_t number, const SnapshotContents &contents) const;
+  void make_room_for(uint32_t number, const SnapshotContents &contents);
   void load(uint32_t number, std::span<const std::byte> snapshot);
   void load_pairs(uint32_t number, const SnapshotContents &contents);
   void load_starts(const CachedRange &old, uint32_t first, std::span<const std::byte> rows);
@@ -62,6 +64,7 @@ struct Worlds::Implementation {
   uint32_t bodies = 0;           /* of each world */
   std::vector<Vec3> gravity;     /* by world, as all that follows */
   std::vector<uint64_t> started; /* steps of the batch when the world began */
+  std::vector<uint64_t> entered; /* when it was reset or loaded last: steps from then on have its events */
   std::vector<bool> forced;      /* it was given forces */
   std::vector<Features> features;
   std::vector<WorldBody> every_body;

@@ -43,12 +43,12 @@ std::vector<Quarantine> Worlds::Implementation::quarantined(uint32_t number) con
   return own;
 }
 
-uint64_t Worlds::Implementation::state_hash(WorldReader &reader, uint32_t number)
+uint64_t Worlds::Implementation::state_hash(WorldReader &reader, uint32_t number, std::span<const Quarantine> own)
 {
   uint64_t hash = 0;
   for (const auto &[buffer, bytes] : reader.rows_of(place_of(number)))
     if (has_alone(number, buffer)) hash = hash_bytes(bytes.data(), bytes.size(), hash);
-  for (const Quarantine &taken : quarantined(number)) hash = hash_bytes(&taken.body, sizeof taken.body, hash);
+  for (const Quarantine &taken : own) hash = hash_bytes(&taken.body, sizeof taken.body, hash);
   return hash;
 }
 
@@ -71,7 +71,8 @@ std::unique_ptr<World::Implementation> Worlds::Implementation::alone(uint32_t nu
   contents.substeps = engine().plan.substeps;
   contents.steps = steps(number);
   for (const auto &[buffer, bytes] : rows) {
-    if (has_alone(number, buffer)) contents.buffers.push_back({buffer, bytes});
+    const bool runs_all = !settings.specialise && buffer != Buffer::body_force;
+    if (runs_all || has_alone(number, buffer)) contents.buffers.push_back({buffer, bytes});
     if (buffer == Buffer::cached_b) contents.pairs = static_cast<uint32_t>(bytes.size() / sizeof(uint32_t));
   }
   return World::Implementation::made_of(std::move(contents), {}, placement, nullptr);
@@ -100,15 +101,22 @@ uint64_t Worlds::state_hash(uint32_t world)
   implementation_->check_world("state_hash", world);
   implementation_->engine().settle();
   WorldReader reader(implementation_->engine().memory, implementation_->engine().buffers.carried(), false);
-  return implementation_->state_hash(reader, world);
+  return implementation_->state_hash(reader, world, implementation_->quarantined(world));
 }
 
 std::vector<uint64_t> Worlds::state_hashes()
 {
   implementation_->engine().settle();
   WorldReader reader(implementation_->engine().memory, implementation_->engine().buffers.carried(), true);
+  std::vector<std::vector<Quarantine>> taken(count());
+  for (Quarantine one : implementation_->engine().quarantined) {
+    const uint32_t world = one.body / bodies_of_world();
+    one.body -= world * bodies_of_world();
+    taken[world].push_back(std::move(one));
+  }
   std::vector<uint64_t> hashes;
-  for (uint32_t world = 0; world < count(); ++world) hashes.push_back(implementation_->state_hash(reader, world));
+  for (uint32_t world = 0; world < count(); ++world)
+    hashes.push_back(implementation_->state_hash(reader, world, taken[world]));
   return hashes;
 }
 

@@ -47,12 +47,27 @@ std::span<const std::byte> bytes_in(const SnapshotContents &contents, Buffer buf
   return found == contents.buffers.end() ? std::span<const std::byte>{} : found->bytes;
 }
 
+/* The settings that decide how a world moves, and its events, as they would be saved. */
+std::vector<std::byte> bytes_of(Settings settings)
+{
+  settings.broadphase = Broadphase::automatic;
+  settings.max_pairs = most_pairs;
+  settings.specialise = true;
+  settings.check = settings.pair_events = settings.moved_bodies = false;
+  ByteWriter writer;
+  writer.put(settings);
+  return writer.take();
+}
+
 } // namespace
 
 void Worlds::Implementation::check_loaded(uint32_t number, const SnapshotContents &contents) const
 {
   if (!contents.modules.empty() || !contents.islands.empty() || contents.substeps.automatic)
     throw InputError("load: the snapshot is of a world with modules, sleep or substeps auto, which a batch has not");
+  if (bytes_of(contents.settings) != bytes_of(settings))
+    throw InputError("load: the snapshot is of a world with other settings; the step, its substeps and iterations, the "
+                     "solver, the contacts, the narrowphase and events must be those of the batch");
   const std::vector<BodyStatus> &status = contents.slots.status();
   const bool has_free = std::find(status.begin(), status.end(), BodyStatus::free) != status.end();
   const Scene own = scene(number);
@@ -75,6 +90,21 @@ void Worlds::Implementation::load_starts(const CachedRange &old, uint32_t first,
   engine().memory.upload(Buffer::cached_start, starts.data(), starts.size() * sizeof(uint32_t));
 }
 
+void Worlds::Implementation::make_room_for(uint32_t number, const SnapshotContents &contents)
+{
+  World::Implementation &all = engine();
+  const uint32_t first = number * bodies;
+  const auto starts = all.memory.read<uint32_t>(Buffer::cached_start, size_t{all.bodies()} + 1);
+  const uint64_t total = uint64_t{starts.back()} - (starts[first + bodies] - starts[first]) + contents.pairs;
+  if (total > settings.max_pairs)
+    throw InputError(fmt::format("load: room for {} pairs is needed, and {} are the most (Settings::max_pairs)", total,
+                                 settings.max_pairs));
+  if (total <= all.plan.capacity_pairs) return;
+  all.forget_contacts();
+  all.enlarge(
+      {static_cast<uint32_t>(std::min<uint64_t>(room_for(total), settings.max_pairs)), all.plan.capacity_candidates});
+}
+
 void Worlds::Implementation::load_pairs(uint32_t number, const SnapshotContents &contents)
 {
   World::Implementation &all = engine();
@@ -82,8 +112,6 @@ void Worlds::Implementation::load_pairs(uint32_t number, const SnapshotContents 
   const auto starts = all.memory.read<uint32_t>(Buffer::cached_start, size_t{all.bodies()} + 1);
   const CachedRange old{starts[first], starts[first + bodies]};
   const uint64_t total = uint64_t{starts.back()} - (old.end - old.begin) + contents.pairs;
-  if (total > all.plan.capacity_pairs)
-    all.enlarge({static_cast<uint32_t>(room_for(total)), all.plan.capacity_candidates});
   for (const CarriedBuffer &carried : all.buffers.carried()) {
     if (row_of(carried.now).capacity != Capacity::PAIRS || all.memory.bytes(carried.now) == 0) continue;
     const size_t item = item_bytes(carried.now);
@@ -126,6 +154,9 @@ void Worlds::Implementation::load(uint32_t number, std::span<const std::byte> sn
   const minicl::ExactFloatingPoint environment;
   const SnapshotContents contents = read_snapshot(snapshot, "load");
   check_loaded(number, contents);
+  engine().settle();
+  engine().buffers.make_ready(engine().sizes());
+  make_room_for(number, contents);
   reset(std::span(&number, 1));
   load_pairs(number, contents);
   started[number] = engine().statistics.steps - contents.steps; /* modulo 2^64, as steps() */
@@ -133,7 +164,7 @@ void Worlds::Implementation::load(uint32_t number, std::span<const std::byte> sn
   gravity[number] = contents.scene.gravity;
   upload_gravity(number, 1);
   forced[number] = contents.forces;
-  features[number] |= contents.special.features;
+  features[number] = contents.special.features;
 }
 
 void Worlds::load(uint32_t world, std::span<const std::byte> snapshot)

@@ -31,6 +31,15 @@ void Worlds::Implementation::upload_batch()
   upload_gravity(0, tables.worlds());
 }
 
+/* A body that cannot move starts without a velocity. */
+void Worlds::Implementation::upload_starts(std::span<const BodyId> changed)
+{
+  StagedUploads uploads;
+  for (const BodyId &id : changed)
+    stage_starts(uploads, engine().scene, std::span(&id.index, 1), engine().index_of_body[id.index]);
+  uploads.write(engine().memory);
+}
+
 void Worlds::Implementation::upload_gravity(uint32_t first, uint32_t count)
 {
   std::vector<float4> rows;
@@ -70,7 +79,8 @@ void Worlds::Implementation::reset(std::span<const uint32_t> given)
   take_out_of_quarantine(numbers);
   if (!numbers.empty() && bodies > 0) launch_reset(numbers);
   for (const uint32_t number : numbers) {
-    started[number] = all.statistics.steps;
+    started[number] = entered[number] = all.statistics.steps;
+    features[number] = features_of(scene(number), settings);
     forced[number] = false;
   }
 }

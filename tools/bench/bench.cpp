@@ -14,6 +14,7 @@
 #include "tools/bench/batching.h"
 #include "tools/bench/bodies.h"
 #include "tools/bench/broadphase.h"
+#include "tools/bench/floors.h"
 #include "tools/bench/narrowphase.h"
 #include "tools/bench/primitives.h"
 #include "tools/bench/rays.h"
@@ -249,6 +250,30 @@ int execute_scenes(const BenchOptions &options)
   return failures.empty() ? 0 : 1;
 }
 
+/* A scene may have parameters, whose commas part the option. */
+std::string floors_scene(const BenchOptions &options)
+{
+  return options.scenes.empty() ? "box-grid" : fmt::format("{}", fmt::join(options.scenes, ","));
+}
+
+int execute_floors(const BenchOptions &options)
+{
+  const std::string scene = floors_scene(options);
+  const MarkedTable table{options.table, "floors " + options.on};
+  DistinctFiles files;
+  options.json.check(files);
+  table.check(files);
+  const Floors floors = bench_floors(scene, {options.on, {}, options.inexact});
+  if (!options.json.takes_standard_output()) fmt::print("{}", floors_text(floors));
+  table.write(fmt::format("```\ntandem bench floors --on {} --scene {} --table-in {}\n```\n{}", options.on, scene,
+                          options.table, floors_markdown(floors)));
+  Json json = floors_json(floors);
+  json["what"] = options.what;
+  json["backend"] = options.on;
+  options.json.write(json);
+  return 0;
+}
+
 /* The exit status is 1 if hill climbing ever ends at another vertex. */
 int execute_support(const BenchOptions &options)
 {
@@ -289,7 +314,7 @@ Json result_json(const BenchOptions &options, const Result &result)
 }
 
 constexpr const char *benchmarks = "sort, scan, broadphase, batching, narrowphase, rays, support, snapshots, "
-                                   "sleeping, bodies, worlds, scenes or step";
+                                   "sleeping, bodies, worlds, scenes, floors or step";
 
 /* Throws InputError for options of one benchmark that are given to another. */
 void check_options(const BenchOptions &options)
@@ -302,9 +327,11 @@ void check_options(const BenchOptions &options)
   only_of("--pairs", !options.pairs.empty(), {"narrowphase"});
   only_of("--broadphase", !options.broadphases.empty(), {"broadphase"});
   only_of("--chart", !options.chart.empty(), {"broadphase"});
-  only_of("--scene", !options.scenes.empty(), {"broadphase", "scenes"});
+  only_of("--scene", !options.scenes.empty(), {"broadphase", "scenes", "floors"});
   only_of("--steps", !options.steps.empty(), {"scenes"});
-  only_of("--table-in", !options.table.empty(), {"scenes"});
+  only_of("--table-in", !options.table.empty(), {"scenes", "floors"});
+  if (options.what == "floors" && !options.count.empty())
+    throw InputError("--n: bench floors takes the size from --scene, as --scene spheres:n=1000; leave it out");
   if (options.what == "scenes" && !options.count.empty())
     throw InputError("--n: the scenes of bench scenes have the numbers of bodies of `tandem scenes`; leave it out");
 }
@@ -322,6 +349,7 @@ int execute(const BenchOptions &options)
   if (options.what == "bodies") return execute_bodies(options);
   if (options.what == "worlds") return execute_worlds(options);
   if (options.what == "scenes") return execute_scenes(options);
+  if (options.what == "floors") return execute_floors(options);
   const bool step = options.what == "step";
   if (!step && options.what != "sort" && options.what != "scan")
     throw InputError(fmt::format("bench '{}' is unknown; use {}", options.what, benchmarks));
@@ -338,9 +366,9 @@ int execute(const BenchOptions &options)
 
 Command bench_command(CLI::App &parser)
 {
-  CLI::App *command =
-      parser.add_subcommand("bench", "time one part by itself: sort, scan, broadphase, batching, "
-                                     "narrowphase, rays, support, snapshots, sleeping, bodies, worlds, scenes, step");
+  CLI::App *command = parser.add_subcommand(
+      "bench", "time one part by itself: sort, scan, broadphase, batching, "
+               "narrowphase, rays, support, snapshots, sleeping, bodies, worlds, scenes, floors, step");
   auto options = std::make_shared<BenchOptions>();
   command
       ->add_option("WHAT", options->what,
@@ -349,8 +377,8 @@ Command bench_command(CLI::App &parser)
                    "boxes), support (farthest vertices of hulls), snapshots (states kept on the device, and saved to "
                    "the host), sleeping (one island awake among bodies that sleep), bodies (that come and go, and "
                    "one that is read), worlds (many small ones in a batch, and one after another), scenes (what every "
-                   "built-in scene takes: kernels, launches, memory, time), step "
-                   "(box-grid)")
+                   "built-in scene takes: kernels, launches, memory, time), floors (bytes that each stage must "
+                   "move, and how long a copy of them takes), step (box-grid)")
       ->required()
       ->type_name("");
   command->add_option("--on", options->on, "backend")->type_name("B")->capture_default_str();
@@ -370,7 +398,8 @@ Command bench_command(CLI::App &parser)
       ->type_name("NAME,...");
   command
       ->add_option("--scene", options->scenes,
-                   "broadphase: these inputs alone, as spheres,pile; scenes: these built-in scenes alone")
+                   "broadphase: these inputs alone, as spheres,pile; scenes: these built-in scenes alone; floors: "
+                   "one scene with its parameters")
       ->delimiter(',')
       ->type_name("NAME,...");
   command
@@ -380,7 +409,7 @@ Command bench_command(CLI::App &parser)
       ->type_name("N");
   command
       ->add_option("--table-in", options->table,
-                   "scenes: write the table between the marks of this Markdown page, which name the backend")
+                   "scenes, floors: write the table between the marks of this Markdown page, which name the backend")
       ->type_name("FILE.md");
   command->add_option("--chart", options->chart, "broadphase: write charts of time over bodies, one a scene")
       ->type_name("FILE.svg");

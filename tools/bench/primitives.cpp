@@ -123,4 +123,17 @@ std::vector<double> bench_scan(const std::string &backend, uint32_t count, bool 
   return times;
 }
 
+std::vector<double> bench_copy(const std::string &backend, uint32_t count, bool allow_inexact)
+{
+  PrimitiveBench bench(backend, allow_inexact, count, [count](Launcher &launcher) {
+    launcher.launch({Kernel::copy, {Buffer::primitive_a, Buffer::primitive_b}, {}, COUNT_ZERO, COUNT_LENGTH, count});
+  });
+  const std::vector<uint32_t> values = scrambled(count);
+  bench.fill(Buffer::primitive_a, values);
+  bench.reserve(Buffer::primitive_b, count);
+  const std::vector<double> times = bench.time([] {}, {Buffer::primitive_a});
+  if (bench.contents(Buffer::primitive_b, count) != values) throw std::runtime_error("a copy is wrong on " + backend);
+  return times;
+}
+
 } // namespace tandem

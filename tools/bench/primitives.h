@@ -11,5 +11,6 @@ namespace tandem {
  * std::runtime_error if a result is wrong, and InputError as make_backend does. */
 std::vector<double> bench_sort(const std::string &backend, uint32_t count, bool allow_inexact);
 std::vector<double> bench_scan(const std::string &backend, uint32_t count, bool allow_inexact);
+std::vector<double> bench_copy(const std::string &backend, uint32_t count, bool allow_inexact);
 
 } // namespace tandem

@@ -138,7 +138,7 @@ Placement SceneOptions::placement() const
   placement.automatic = place_ == automatic || place_.starts_with(std::string(automatic) + ",");
   const std::string exceptions =
       placement.automatic ? place_.substr(std::min(place_.size(), std::strlen(automatic) + 1)) : place_;
-  if (!exceptions.empty()) placement.exceptions = parse_placement(exceptions);
+  if (!exceptions.empty() || place_.ends_with(',')) placement.exceptions = parse_placement(exceptions);
   if (placement.automatic && !one_backend_)
     throw InputError("--place auto: what is compared runs where --between says; name stages instead");
   placement.allow_inexact = inexact_;

@@ -39,8 +39,8 @@ void print_scenes()
     if (scene.parameters.empty()) continue;
     Table table({"parameter", "default", "range", "what"}, false);
     for (const SceneParameter &parameter : scene.parameters)
-      table.add({parameter.name, fmt::format("{:g}", parameter.default_value),
-                 fmt::format("{:g} to {:g}", parameter.minimum, parameter.maximum), parameter.description});
+      table.add({parameter.name, fmt::format("{:.10g}", parameter.default_value),
+                 fmt::format("{:.10g} to {:.10g}", parameter.minimum, parameter.maximum), parameter.description});
     fmt::print("{}\n", table.text("  "));
   }
   fmt::print("Use: tandem run NAME:parameter=value,parameter=value\n");

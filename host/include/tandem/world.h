@@ -365,7 +365,8 @@ public:
     write_bytes(buffer, values.data(), values.size_bytes(),
                 first > SIZE_MAX / sizeof(T) ? SIZE_MAX : first * sizeof(T));
   }
-  /* Reads all of any buffer that this world has, the pipeline's included, as the last launch left it. */
+  /* Reads all of any buffer that this world has, the pipeline's included, as the last launch left it. Where stages run
+   * in several memories, what lies behind the rows in use is undefined. */
   template <class T> std::vector<T> read(Buffer buffer)
   {
     std::vector<T> values(buffer_bytes(buffer) / sizeof(T));
@@ -396,8 +397,8 @@ public:
   /* Makes room for so many pairs of bodies whose bounds overlap. A world begins with room for two a body and makes more
    * when a step needs it, which then takes several times as long, so reserve what a scene will need if no frame may be
    * late: a settled pile has four to five pairs a body, some 300 bytes each. InputError: more than Settings::max_pairs.
-   * OutOfMemory: the world is as it was. Neither this nor the next call changes any motion; after both, contacts and
-   * events of the last step are no longer listed. */
+   * OutOfMemory: bodies and the room are as they were. Neither this nor the next call changes any motion; after both,
+   * contacts and events of the last step are no longer listed. */
   void reserve_pairs(uint32_t pairs);
   /* Gives back the room for pairs beyond those of the last step and of states that were kept, and an eighth more. */
   void shrink_to_fit();

@@ -48,7 +48,8 @@ template <class Event> struct WorldEvents {
   std::vector<size_t> first; /* the first event of each world, and the end */
   std::span<const Event> of(uint32_t world) const
   {
-    return std::span(all).subspan(first.at(world), first.at(world + 1) - first[world]);
+    const size_t begin = first.at(world), end = first.at(size_t{world} + 1);
+    return std::span(all).subspan(begin, end - begin);
   }
 };
 

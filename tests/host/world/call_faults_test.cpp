@@ -74,6 +74,12 @@ const std::vector<std::pair<const char *, Call>> &calls()
          world.create_body(ball);
        }},
       {"destroy", [](World &world) { world.destroy_body(world.id_of(2)); }},
+      {"reserve", [](World &world) { world.reserve_pairs(20000); }},
+      {"shrink",
+       [](World &world) {
+         world.reserve_pairs(20000);
+         world.shrink_to_fit();
+       }},
   };
   return all;
 }
@@ -99,6 +105,7 @@ TEST_CASE("a call that fails anywhere changes nothing, and can be made again", "
     World undisturbed(few_boxes(), settings, {"serial", {}});
     for (int k = 0; k < 3; ++k) undisturbed.step();
     const uint64_t before = undisturbed.state_hash();
+    const size_t contacts_before = undisturbed.statistics().contacts;
     call(undisturbed);
     const std::vector<uint64_t> expected = hashes_after(undisturbed, 3);
     for (uint64_t at = 0;; ++at) {
@@ -121,6 +128,9 @@ TEST_CASE("a call that fails anywhere changes nothing, and can be made again", "
         REQUIRE(world.scene().bodies.size() == 5);
         REQUIRE(world.scene().shapes.size() == 3);
         REQUIRE(world.scene().bodies[2].mass == 1);
+        const size_t contacts = world.statistics().contacts; /* those of the last step, or none */
+        REQUIRE((contacts == contacts_before || contacts == 0));
+        REQUIRE((contacts > 0 || world.contact_events().empty()));
         call(world);
       }
       REQUIRE(hashes_after(world, 3) == expected);

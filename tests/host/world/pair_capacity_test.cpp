@@ -114,5 +114,34 @@ TEST_CASE("no more room can be reserved than the settings allow")
   CHECK(world.statistics().pairs == all_pairs);
 }
 
+/* The sorted order of bodies that queries traverse lies in buffers that are laid out anew. */
+TEST_CASE("queries find the same after room for pairs was reserved and given back")
+{
+  for (const Broadphase broadphase : {Broadphase::grid, Broadphase::trees, Broadphase::sap}) {
+    Settings settings;
+    settings.broadphase = broadphase;
+    World world(burst(balls), settings);
+    hash_after(world, 20);
+    std::vector<Ray> rays;
+    Random random(3);
+    for (int i = 0; i < 200; ++i)
+      rays.push_back({.origin = {random.uniform(-9, 9), random.uniform(-9, 9), -30},
+                      .direction = {0, 0, 1},
+                      .reach = 60,
+                      .filter = {}});
+    const auto bodies_hit = [&] {
+      std::vector<uint32_t> bodies;
+      for (const RayHit &hit : world.cast_rays(rays)) bodies.push_back(hit.body);
+      return bodies;
+    };
+    const std::vector<uint32_t> before = bodies_hit();
+    CHECK(std::count(before.begin(), before.end(), no_body) < 190);
+    world.reserve_pairs(4 * all_pairs);
+    CHECK(bodies_hit() == before);
+    world.shrink_to_fit();
+    CHECK(bodies_hit() == before);
+  }
+}
+
 } // namespace
 } // namespace tandem

@@ -9,8 +9,8 @@
 #include "host/runtime/interface/features.h"
 #include "host/runtime/memory.h"
 #include "tests/catch.h"
-#include "tests/host/world/bodies.h"
 #include "tests/host/runtime/opencl/pocl.h"
+#include "tests/host/world/bodies.h"
 
 using namespace tandem;
 using Catch::Matchers::ContainsSubstring;
@@ -447,4 +447,30 @@ TEST_CASE("a kind of body that comes back meets those that came in the meantime"
   const BodyId again = world.create_body(body_at({0, 1.5, 0}, 0));
   run(world, 60);
   CHECK(world.read_body(again).position[1] == Approx(1.5).margin(0.02));
+}
+
+/* Contacts of a body that cannot be pushed may share a colour, and must not any more once it can be. */
+TEST_CASE("contacts of a body that becomes dynamic get colours of their own", "[sanitizer]")
+{
+  const BodyType before = GENERATE(BodyType::fixed, BodyType::kinematic);
+  Scene scene = boxes_on_ground(0);
+  Body slab = body_at({0, 0.25, 0}, 3);
+  scene.shapes.push_back(box_shape(3, 0.25f, 2));
+  slab.type = before;
+  scene.bodies.push_back(slab);
+  for (int k = 0; k < 8; ++k) scene.bodies.push_back(body_at({0.6 * k - 2.1, 0.745, 0}, 4));
+  scene.shapes.push_back(box_shape(0.25f, 0.25f, 0.25f));
+  Settings settings;
+  settings.check = true;
+  World scalar(scene, settings, {"serial", {}}), lanes(scene, settings, {"tbb:threads=1,lanes=4", {}});
+  for (World *world : {&scalar, &lanes}) {
+    run(*world, 5);
+    REQUIRE(world->statistics().colors < 8);
+    world->set_type(world->id_of(1), BodyType::dynamic);
+    run(*world, 1);
+    CHECK(world->statistics().colors >= 8); /* one for each box on the slab */
+    run(*world, 5);
+    CHECK(!world->batch_fault());
+  }
+  CHECK(scalar.state_hash() == lanes.state_hash());
 }

@@ -323,7 +323,110 @@ TEST_CASE("a batch of worlds: what it refuses")
   refused("material 3 does not exist", [&] {
     batch.set_properties(std::vector<WorldBody>{{0, 1}}, std::vector<BodyProperties>{{.material = 3}});
   });
+  refused("entry 0: continuous: bodies of a batch keep what their scene says", [&] {
+    batch.set_properties(std::vector<WorldBody>{{0, 1}}, std::vector<BodyProperties>{{.continuous = true}});
+  });
   refused("three finite numbers are needed", [&] { batch.set_gravity(1, {0, not_a_number, 0}); });
+}
+
+TEST_CASE("a batch of worlds: a world that was reset can bring a feature before its next step")
+{
+  BatchBesideWorlds both(small_piles(3), "serial");
+  both.step(20);
+  both.reset({1});
+  both.batch.set_properties(std::vector<WorldBody>{{2, 3}}, std::vector<BodyProperties>{{.linear_damping = 1.0f}});
+  both.alone[2]->set_damping(both.alone[2]->id_of(3), 1, 0);
+  both.step(10);
+}
+
+TEST_CASE("a batch of worlds: a reset follows the types that bodies have now")
+{
+  std::vector<Scene> scenes = varied_scenes("falling-boxes:n=6", 2);
+  scenes[1].bodies[4].type = BodyType::fixed; /* with a velocity that it would have as a dynamic one */
+  BatchBesideWorlds both(scenes, "serial");
+  both.step(5);
+  const auto set_type = [&](uint32_t world, uint32_t body, BodyType type) {
+    both.batch.set_properties(std::vector<WorldBody>{{world, body}}, std::vector<BodyProperties>{{.type = type}});
+    both.alone[world]->set_type(both.alone[world]->id_of(body), type);
+  };
+  set_type(0, 3, BodyType::fixed);
+  set_type(1, 4, BodyType::dynamic);
+  both.step(5);
+  both.reset({0, 1});
+  both.step(10);
+}
+
+TEST_CASE("a batch of worlds: a feature that was given up is forgotten by a reset")
+{
+  BatchBesideWorlds both(small_piles(2), "serial");
+  both.batch.set_properties(std::vector<WorldBody>{{0, 2}}, std::vector<BodyProperties>{{.linear_damping = 1.0f}});
+  both.batch.step();
+  both.batch.set_properties(std::vector<WorldBody>{{0, 2}}, std::vector<BodyProperties>{{.linear_damping = 0.0f}});
+  for (const auto &world : both.alone) world->step();
+  both.reset({0});
+  both.step(5);
+}
+
+TEST_CASE("a batch of worlds: worlds of every feature are saved and loaded, too")
+{
+  Settings settings;
+  settings.specialise = false;
+  BatchBesideWorlds both(small_piles(2), "serial", settings);
+  both.step(12);
+  World again(both.batch.save(1));
+  CHECK(again.state_hash() == both.batch.state_hash(1));
+  both.batch.load(0, both.batch.save(0));
+  both.step(3);
+}
+
+TEST_CASE("a batch of worlds: what load refuses leaves the batch as it was, and a loaded world has no events yet")
+{
+  Settings settings;
+  settings.events = settings.pair_events = settings.moved_bodies = true;
+  Worlds batch(load_scene("falling-boxes:n=8,height=0"), 3, settings);
+  for (int step = 0; step < 30; ++step) batch.step();
+  REQUIRE(!batch.pair_events().of(1).empty());
+  const std::vector<std::byte> saved = batch.save(1);
+  const std::vector<uint64_t> before = batch.state_hashes();
+  Settings other = settings;
+  other.step = 1.0f / 30;
+  World lone(batch.scene(1), other);
+  CHECK_THROWS_WITH(batch.load(1, lone.save()), Catch::Matchers::ContainsSubstring("other settings"));
+  CHECK(batch.state_hashes() == before);
+  batch.load(2, saved);
+  CHECK(batch.state_hash(2) == before[1]);
+  CHECK(batch.contact_events().of(2).empty());
+  CHECK(batch.pair_events().of(2).empty());
+  CHECK(batch.moved_bodies().of(2).empty());
+  CHECK_THROWS_AS(batch.pair_events().of(UINT32_MAX), std::out_of_range);
+}
+
+TEST_CASE("a batch of worlds: no more pairs are loaded than the settings allow")
+{
+  const Scene scene = load_scene("falling-boxes:n=8,height=0");
+  World settled(scene);
+  for (int step = 0; step < 30; ++step) settled.step();
+  Settings settings;
+  settings.max_pairs = 2 * settled.statistics().pairs;
+  Worlds batch(scene, 3, settings);
+  batch.load(0, settled.save());
+  batch.load(1, settled.save());
+  const uint64_t before = batch.state_hash(2);
+  CHECK_THROWS_WITH(batch.load(2, settled.save()), Catch::Matchers::ContainsSubstring("are the most"));
+  CHECK(batch.state_hash(2) == before);
+  batch.load(1, settled.save()); /* in the place of as many */
+}
+
+TEST_CASE("a batch of worlds: a reset to states that are refused changes nothing")
+{
+  Worlds batch(small_piles(2), {}, {"serial", {}});
+  for (int step = 0; step < 5; ++step) batch.step();
+  const std::vector<uint64_t> before = batch.state_hashes();
+  std::vector<BodyState> states = batch.bodies(1);
+  states[3].position[0] = not_a_number;
+  CHECK_THROWS_AS(batch.reset(std::vector<uint32_t>{1}, states), InputError);
+  CHECK(batch.state_hashes() == before);
+  CHECK(batch.steps(1) == 5);
 }
 
 } // namespace tandem::tests
