@@ -74,7 +74,7 @@ std::vector<std::string> arguments_of(const PhaseKind &kind)
 bool is_group(Kernel kernel) { return row_of(kernel).execution == Execution::group; }
 
 /* An item kernel is a function that all cases of it call. Inlined into each, it took an H200's compiler a quarter to
- * two thirds longer, and the steps were no faster (docs/results/2026-11-26-h200-starts). */
+ * two thirds longer, and the steps were no faster (docs/results/2026-11-26-worlds-memory-starts). */
 std::string function_of(Kernel kernel)
 {
   std::vector<std::string> names;
