@@ -434,7 +434,7 @@ TEST_CASE("command: bench broadphase of some, and what it refuses", "[command]")
   CHECK(two["scenes"][0]["runs"][1]["pairs"].get<int>() > 0);
   check_refused("bench broadphase --broadphase magic", "magic");
   check_refused("bench broadphase --scene castle", "castle");
-  for (const char *n : {"1", "4000001", "many"}) check_refused(std::string("bench broadphase --n ") + n, "--n");
+  for (const char *n : {"1", "64000001", "many"}) check_refused(std::string("bench broadphase --n ") + n, "--n");
   check_refused("bench broadphase --on abacus --n 100", "abacus");
   check_refused("bench broadphase --chart /nonexistent/c.svg", "/nonexistent/c.svg");
   check_refused("bench broadphase --pairs box-box", "--pairs");

@@ -115,7 +115,7 @@ TEST_CASE("command: bench bodies and bench sleeping have the promised keys", "[c
     CHECK(time["max"] >= time["median"]);
   }
   check_refused("bench bodies --n 0", "--n");
-  check_refused("bench bodies --n 4000001", "--n");
+  check_refused("bench bodies --n 64000001", "--n");
 
   const Json sleeping = json_of("bench sleeping --n 45 --on serial");
   REQUIRE(sleeping["worlds"].size() == 1);
