@@ -193,6 +193,7 @@ private:
     case Buffer::body_position: return positions_.data();
     case Buffer::body_orientation: return orientations_.data();
     case Buffer::body_velocity: return velocities_.data();
+    case Buffer::body_gravity: return nullptr; /* of batches of worlds alone */
     case Buffer::parameters: return &parameters;
     case Buffer::counts: return counts_.data();
     case Buffer::manifold_normal: return outputs.normals.data();
