@@ -223,7 +223,7 @@ void print_outcome(const Outcome &outcome, World &world, const Placement &placem
 }
 
 /* Warnings are printed in any case, whatever else is. */
-void print_warnings(const Outcome &outcome, World &world, bool allow_quarantine)
+void print_warnings(World &world, bool allow_quarantine)
 {
   for (const Quarantine &quarantine : world.quarantined())
     fmt::print(stderr, "tandem: body {} '{}' stopped being finite in step {} ({}) and was taken out\n", quarantine.body,
@@ -233,8 +233,6 @@ void print_warnings(const Outcome &outcome, World &world, bool allow_quarantine)
         stderr,
         "tandem: {} of {} bodies did not stay finite, so this is no result; --allow-quarantine takes it for one\n",
         world.quarantined().size(), world.scene().bodies.size());
-  if (outcome.statistics.overflow)
-    fmt::print(stderr, "tandem: {} steps ran again with larger buffers\n", outcome.statistics.overflow);
 }
 
 Outcome simulate(World &world, const RunOptions &options, uint64_t steps)
@@ -323,7 +321,7 @@ int execute(const RunOptions &options)
   world.stop_recording();
   save_image(options, world);
   if (!options.json.takes_standard_output()) print_outcome(outcome, world, placement);
-  print_warnings(outcome, world, options.allow_quarantine);
+  print_warnings(world, options.allow_quarantine);
   options.json.write(outcome_json(outcome, world, placement));
   if (world.batch_fault()) fmt::print(stderr, "tandem: {}\n", describe(*world.batch_fault()));
   return world.batch_fault() || (!world.quarantined().empty() && !options.allow_quarantine) ? 1 : 0;
