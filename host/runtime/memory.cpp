@@ -196,9 +196,7 @@ void *Memory::acquire(Buffer buffer, Storage &storage, Access access, UsedParts 
 {
   Entry &entry = entries_[index_of(buffer)];
   const bool forgotten = std::exchange(entry.forgotten, entry.forgotten && access == Access::in);
-  if (entry.copies.size() == 1 && entry.copies[0].storage == &storage && entry.copies[0].valid) /* nearly always */
-    return entry.copies[0].handle;
-  if (void *const handle = valid_alone(entry, storage, access)) return handle;
+  if (void *const handle = valid_alone(entry, storage, access)) return handle; /* nearly always */
   if (forgotten) copy_in(entry, storage).valid = true;
   make_valid(buffer, storage, used);
   Copy &copy = copy_in(entry, storage);

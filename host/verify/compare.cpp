@@ -17,12 +17,9 @@ namespace tandem {
 std::vector<Buffer> buffers_written(const Launch &launch)
 {
   std::vector<Buffer> written;
-  size_t slot = 0;
-  for (const Argument &argument : row_of(launch.kernel).arguments) {
-    if (argument.kind == Argument::Kind::value) continue;
-    const Buffer buffer = argument.kind == Argument::Kind::slot ? launch.slots.at(slot++) : argument.buffer;
-    if (argument.access != Access::in) written.push_back(buffer);
-  }
+  for_each_buffer(launch, [&](Buffer buffer, Access access) {
+    if (access != Access::in) written.push_back(buffer);
+  });
   return written;
 }
 

@@ -59,12 +59,7 @@ void LaunchRecord::launch(const Launch &launch)
 {
   const KernelRow &row = row_of(launch.kernel);
   Entry entry{row.stage, row.execution == Execution::host, {{Buffer::counts, false}}};
-  size_t slot = 0;
-  for (const Argument &argument : row.arguments) {
-    if (argument.kind == Argument::Kind::value) continue;
-    const Buffer buffer = argument.kind == Argument::Kind::slot ? launch.slots.at(slot++) : argument.buffer;
-    entry.uses.push_back({buffer, argument.access != Access::in});
-  }
+  for_each_buffer(launch, [&](Buffer buffer, Access access) { entry.uses.push_back({buffer, access != Access::in}); });
   entries_.push_back(std::move(entry));
 }
 

@@ -2,6 +2,7 @@
 #include "host/world/worlds.h"
 
 #include <algorithm>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -73,6 +74,7 @@ Worlds::Implementation::Implementation(std::span<const Scene> scenes, uint32_t c
   }
   started.resize(tables.worlds());
   entered.resize(tables.worlds());
+  changed.resize(tables.worlds());
   forced.resize(tables.worlds());
   if (all.materials.size() > MOST_MATERIALS)
     throw InputError(fmt::format("worlds: the scenes have {} materials; at most {} in all, and scenes that follow one "
@@ -236,7 +238,12 @@ void Worlds::set_properties(std::span<const WorldBody> bodies, std::span<const B
   }
   own.world->set_properties(ids, in_all);
   own.upload_starts(ids);
-  for (const WorldBody &body : bodies) own.features[body.world] |= features_of(own.scene(body.world), own.settings);
+  std::set<uint32_t> worlds;
+  for (const WorldBody &body : bodies) worlds.insert(body.world);
+  for (const uint32_t world : worlds) {
+    own.features[world] |= features_of(own.scene(world), own.settings);
+    own.changed[world] = true;
+  }
 }
 
 void Worlds::set_state_unchecked(const WorldBody &body, const BodyState &state)

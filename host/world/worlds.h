@@ -51,9 +51,11 @@ struct Worlds::Implementation {
     uint32_t begin, end; /* of the cached pairs */
   };
   void check_loaded(uint32_t number, const SnapshotContents &contents) const;
-  void make_room_for(uint32_t number, const SnapshotContents &contents);
+  CachedRange cached_range(uint32_t number);
+  uint64_t pairs_with(const CachedRange &old, const SnapshotContents &contents);
+  void make_room_for(uint64_t pairs);
   void load(uint32_t number, std::span<const std::byte> snapshot);
-  void load_pairs(uint32_t number, const SnapshotContents &contents);
+  void load_pairs(uint32_t number, const CachedRange &old, uint64_t all_pairs, const SnapshotContents &contents);
   void load_starts(const CachedRange &old, uint32_t first, std::span<const std::byte> rows);
   void load_bodies(uint32_t number, const SnapshotContents &contents);
 
@@ -67,6 +69,7 @@ struct Worlds::Implementation {
   std::vector<uint64_t> entered; /* when it was reset or loaded last: steps from then on have its events */
   std::vector<bool> forced;      /* it was given forces */
   std::vector<Features> features;
+  std::vector<bool> changed; /* its properties were set, so that it may have features which a new one has not */
   std::vector<WorldBody> every_body;
   std::unique_ptr<World> world;
 };

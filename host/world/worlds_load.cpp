@@ -90,28 +90,38 @@ void Worlds::Implementation::load_starts(const CachedRange &old, uint32_t first,
   engine().memory.upload(Buffer::cached_start, starts.data(), starts.size() * sizeof(uint32_t));
 }
 
-void Worlds::Implementation::make_room_for(uint32_t number, const SnapshotContents &contents)
+Worlds::Implementation::CachedRange Worlds::Implementation::cached_range(uint32_t number)
 {
-  World::Implementation &all = engine();
-  const uint32_t first = number * bodies;
-  const auto starts = all.memory.read<uint32_t>(Buffer::cached_start, size_t{all.bodies()} + 1);
-  const uint64_t total = uint64_t{starts.back()} - (starts[first + bodies] - starts[first]) + contents.pairs;
-  if (total > settings.max_pairs)
-    throw InputError(fmt::format("load: room for {} pairs is needed, and {} are the most (Settings::max_pairs)", total,
-                                 settings.max_pairs));
-  if (total <= all.plan.capacity_pairs) return;
-  all.forget_contacts();
-  all.enlarge(
-      {static_cast<uint32_t>(std::min<uint64_t>(room_for(total), settings.max_pairs)), all.plan.capacity_candidates});
+  const auto starts = engine().memory.read<uint32_t>(Buffer::cached_start, size_t{bodies} + 1, size_t{number} * bodies);
+  return {starts.front(), starts.back()};
 }
 
-void Worlds::Implementation::load_pairs(uint32_t number, const SnapshotContents &contents)
+/* The cached pairs of all worlds, once those of the snapshot have replaced this range. */
+uint64_t Worlds::Implementation::pairs_with(const CachedRange &old, const SnapshotContents &contents)
+{
+  const uint32_t all = engine().memory.read<uint32_t>(Buffer::cached_start, 1, engine().bodies()).front();
+  return uint64_t{all} - (old.end - old.begin) + contents.pairs;
+}
+
+void Worlds::Implementation::make_room_for(uint64_t pairs)
+{
+  World::Implementation &all = engine();
+  if (pairs > settings.max_pairs)
+    throw InputError(fmt::format("load: room for {} pairs is needed, and {} are the most (Settings::max_pairs)", pairs,
+                                 settings.max_pairs));
+  if (pairs <= all.plan.capacity_pairs) return;
+  all.forget_contacts();
+  all.enlarge(
+      {static_cast<uint32_t>(std::min<uint64_t>(room_for(pairs), settings.max_pairs)), all.plan.capacity_candidates});
+}
+
+/* all_pairs: as pairs_with() says. */
+void Worlds::Implementation::load_pairs(uint32_t number, const CachedRange &old, uint64_t all_pairs,
+                                        const SnapshotContents &contents)
 {
   World::Implementation &all = engine();
   const uint32_t first = number * bodies;
-  const auto starts = all.memory.read<uint32_t>(Buffer::cached_start, size_t{all.bodies()} + 1);
-  const CachedRange old{starts[first], starts[first + bodies]};
-  const uint64_t total = uint64_t{starts.back()} - (old.end - old.begin) + contents.pairs;
+  const size_t pairs_before = all_pairs + (old.end - old.begin) - contents.pairs;
   for (const CarriedBuffer &carried : all.buffers.carried()) {
     if (row_of(carried.now).capacity != Capacity::PAIRS || all.memory.bytes(carried.now) == 0) continue;
     const size_t item = item_bytes(carried.now);
@@ -120,11 +130,11 @@ void Worlds::Implementation::load_pairs(uint32_t number, const SnapshotContents 
     std::copy(given.begin(), given.end(), rows.begin());
     if (carried.now == Buffer::cached_b) add_to_words(rows, first);
     const std::vector<std::byte> joined =
-        spliced(all.memory.read<std::byte>(carried.now, starts.back() * item), old.begin * item, old.end * item, rows);
+        spliced(all.memory.read<std::byte>(carried.now, pairs_before * item), old.begin * item, old.end * item, rows);
     all.memory.upload(carried.now, joined.data(), joined.size());
   }
   load_starts(old, first, bytes_in(contents, Buffer::cached_start));
-  all.cached_pairs = static_cast<uint32_t>(total);
+  all.cached_pairs = static_cast<uint32_t>(all_pairs);
 }
 
 void Worlds::Implementation::load_bodies(uint32_t number, const SnapshotContents &contents)
@@ -156,15 +166,18 @@ void Worlds::Implementation::load(uint32_t number, std::span<const std::byte> sn
   check_loaded(number, contents);
   engine().settle();
   engine().buffers.make_ready(engine().sizes());
-  make_room_for(number, contents);
+  const CachedRange old = cached_range(number);
+  const uint64_t pairs = pairs_with(old, contents);
+  make_room_for(pairs);
   reset(std::span(&number, 1));
-  load_pairs(number, contents);
+  load_pairs(number, old, pairs, contents);
   started[number] = engine().statistics.steps - contents.steps; /* modulo 2^64, as steps() */
   load_bodies(number, contents);
   gravity[number] = contents.scene.gravity;
   upload_gravity(number, 1);
   forced[number] = contents.forces;
   features[number] = contents.special.features;
+  changed[number] = true; /* before or after it was saved */
 }
 
 void Worlds::load(uint32_t world, std::span<const std::byte> snapshot)

@@ -80,7 +80,8 @@ void Worlds::Implementation::reset(std::span<const uint32_t> given)
   if (!numbers.empty() && bodies > 0) launch_reset(numbers);
   for (const uint32_t number : numbers) {
     started[number] = entered[number] = all.statistics.steps;
-    features[number] = features_of(scene(number), settings);
+    if (changed[number]) features[number] = features_of(scene(number), settings);
+    changed[number] = false;
     forced[number] = false;
   }
 }

@@ -72,13 +72,13 @@ typedef struct {
 } contact_sum;
 
 /* velocity: of body a, which moves with it until the moment of an impact. */
-SHARED void add_manifold(contact_sum *sum, vec3 velocity, read_manifolds manifolds, uint stride, uint pair,
+SHARED void add_manifold(contact_sum *sum, vec3 velocity, read_manifolds manifolds, point_planes planes, uint pair,
                          vec4 impulses)
 {
   real impulse = R(0.0), depth = UNBOUNDED;
   vec4 normal = load_float4(manifolds.normal, pair);
   for (uint k = 0; k < manifolds.count[pair]; ++k) {
-    vec4 point = load_float4(manifolds.points, stride * k + pair);
+    vec4 point = load_manifold_point(manifolds.points, planes, k, pair);
     real carried = component(impulses, k);
     if (!point_touches(point, carried)) continue;
     vec3 where = add_scaled(xyz(point), velocity, moment_of(normal.w));
@@ -150,7 +150,7 @@ SHARED void write_events_item(read_touching_pairs touching_pairs, GLOBAL const u
     real approach = R(0.0);
     if (change.kind != (uint)EVENT_END) {
       for (uint pair = change.first; pair < change.end; ++pair)
-        add_manifold(&sum, load_velocity(body_velocity, a).linear, manifolds, counts[CAPACITY_PAIRS], pair,
+        add_manifold(&sum, load_velocity(body_velocity, a).linear, manifolds, planes_of(counts), pair,
                      impulse_of_pair(pair_color, pair_impulse, pair));
       vec3 arm = middle_of_contact(&sum);
       where = moved_position(load_position(body_position, a), arm);

@@ -23,7 +23,7 @@
 /* The buffers of manifolds, and the thickness that counts as thin. */
 typedef struct {
   read_manifolds manifolds;
-  uint stride;
+  point_planes planes;
   real thickness;
 } manifold_list;
 
@@ -32,8 +32,8 @@ SHARED mask lies_in_plane_of(const manifold_list *list, uint i, uint j)
 {
   vec3 normal = xyz(load_float4(list->manifolds.normal, j)), origin = xyz(load_float4(list->manifolds.points, j));
   for (uint k = 0u; k < list->manifolds.count[i]; ++k)
-    if (magnitude(dot3(subtract(xyz(load_float4(list->manifolds.points, list->stride * k + i)), origin), normal)) >
-        list->thickness)
+    if (magnitude(dot3(subtract(xyz(load_manifold_point(list->manifolds.points, list->planes, k, i)), origin),
+                       normal)) > list->thickness)
       return 0;
   return 1;
 }
@@ -41,7 +41,7 @@ SHARED mask lies_in_plane_of(const manifold_list *list, uint i, uint j)
 SHARED mask presses(const manifold_list *list, uint j)
 {
   for (uint k = 0u; k < list->manifolds.count[j]; ++k)
-    if (load_float4(list->manifolds.points, list->stride * k + j).w < list->thickness) return 1;
+    if (load_manifold_point(list->manifolds.points, list->planes, k, j).w < list->thickness) return 1;
   return 0;
 }
 
@@ -61,7 +61,7 @@ SHARED void find_internal_edges_item(GLOBAL const Parameters *parameters, read_p
   internal_edge[i] = 0u;
   if (manifolds.count[i] == 0u) return;
   real slop = minimum(parameters->slop, parameters->slop_share * size_between(shapes, pairs.a[i], pairs.b[i]));
-  manifold_list list = {manifolds, counts[CAPACITY_PAIRS], slop * INTERNAL_EDGE_SHARE};
+  manifold_list list = {manifolds, planes_of(counts), slop * INTERNAL_EDGE_SHARE};
   for (uint j = i; j > 0u && same_bodies(pairs.a, pairs.b, i, j - 1u); --j)
     if (explained_by(&list, i, j - 1u)) internal_edge[i] = 1u;
   for (uint j = i + 1u; j < counts[COUNT_PAIRS] && same_bodies(pairs.a, pairs.b, i, j); ++j)

@@ -52,12 +52,9 @@ uint64_t least_bytes(World &world, const Counts &counts, const Launch &launch)
 {
   const uint64_t items = uint64_t{counts[launch.last]} - counts[launch.first];
   uint64_t bytes = 0;
-  size_t slot = 0;
-  for (const Argument &argument : row_of(launch.kernel).arguments) {
-    if (argument.kind == Argument::Kind::value) continue;
-    const Buffer buffer = argument.kind == Argument::Kind::slot ? launch.slots.at(slot++) : argument.buffer;
-    bytes += bytes_of_rows(world, counts, buffer, items) * (argument.access == Access::inout ? 2 : 1);
-  }
+  for_each_buffer(launch, [&](Buffer buffer, Access access) {
+    bytes += bytes_of_rows(world, counts, buffer, items) * (access == Access::inout ? 2 : 1);
+  });
   return bytes;
 }
 

@@ -30,6 +30,15 @@ struct Launch {
                             GROUP: at least as many */
 };
 
+/* Calls work(buffer, access) for each buffer that a launch takes, in the order of the kernel's row. */
+template <class Work> void for_each_buffer(const Launch &launch, const Work &work)
+{
+  size_t slot = 0;
+  for (const Argument &argument : row_of(launch.kernel).arguments)
+    if (argument.kind != Argument::Kind::value)
+      work(argument.kind == Argument::Kind::slot ? launch.slots.at(slot++) : argument.buffer, argument.access);
+}
+
 /* One argument, in the order of the kernel's row: a handle of the backend's storage, or a value. */
 struct BoundArgument {
   void *handle = nullptr;
