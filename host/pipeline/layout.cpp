@@ -19,6 +19,12 @@ namespace {
 
 constexpr uint32_t most_points_of_pair = 4;
 
+/* The ends of boxes, pairs, candidates, and two bodies of each pair. */
+size_t most_keys_sorted(const Sizes &sizes)
+{
+  return 2 * std::max({size_t{sizes.bodies}, size_t{sizes.pairs}, (size_t{sizes.candidates} + 1) / 2});
+}
+
 /* A capacity without a case here must not compile, whatever warnings are enabled. */
 #pragma GCC diagnostic push
 #pragma GCC diagnostic error "-Wswitch"
@@ -27,7 +33,7 @@ size_t items_of(Capacity capacity, const Sizes &sizes)
   /* The numbers of bodies, pairs and parts of a scene are below 2^32 each, and buffers have few elements for each of
    * them, so 64 bits suffice for all products here. */
   const size_t sortable = std::max(2 * size_t{sizes.bodies}, size_t{sizes.pairs}); /* the ends of boxes; pairs */
-  const size_t most_sorted = std::max(sortable, size_t{sizes.candidates});         /* which have buffers of their own */
+  const size_t most_sorted = most_keys_sorted(sizes);                              /* some have buffers of their own */
   switch (capacity) {
   case Capacity::NOTHING: return 0;
   case Capacity::ONE: return 1;

@@ -130,7 +130,7 @@ TEST_CASE("a step that asks for another repetition for ever ends with a line, an
   CHECK(world.statistics().steps == 2);
 }
 
-TEST_CASE("a body that is not finite is named in a step that also overflows", "[physics]")
+TEST_CASE("a body that is not finite is named in a step that also overflows", "[physics][address]")
 {
   World world(dense_cluster(sphere_shape(0.4f), 200));
   BodyState poison = world.bodies()[50];
