@@ -19,6 +19,7 @@
 #include "tools/bench/primitives.h"
 #include "tools/bench/rays.h"
 #include "tools/bench/scenes.h"
+#include "tools/bench/sizes.h"
 #include "tools/bench/sleeping.h"
 #include "tools/bench/snapshots.h"
 #include "tools/bench/support.h"
@@ -35,7 +36,7 @@ namespace {
 
 struct BenchOptions {
   std::string what, on = "tbb", count, steps, chart, table;
-  std::vector<std::string> pairs, broadphases, scenes;
+  std::vector<std::string> pairs, broadphases, scenes, beside;
   bool inexact = false;
   JsonOutput json;
 };
@@ -274,6 +275,25 @@ int execute_floors(const BenchOptions &options)
   return 0;
 }
 
+int execute_sizes(const BenchOptions &options)
+{
+  const uint64_t most = options.count.empty() ? most_of_sizes : whole_number("--n", options.count, 8, most_bodies);
+  DistinctFiles files;
+  std::vector<SizesRun> beside;
+  for (const std::string &path : options.beside) {
+    files.reads("--beside", path);
+    beside.push_back(read_sizes(path));
+  }
+  options.json.check(files);
+  files.writes("--chart", options.chart);
+  const SizesRun run{"tandem, " + options.on, bench_sizes({options.on, {}, options.inexact}, most)};
+  if (!options.json.takes_standard_output())
+    fmt::print("sizes on {}: medians, ms a step\n{}", options.on, sizes_text(run, beside));
+  options.json.write(sizes_json(run));
+  if (!options.chart.empty()) write_file("--chart", options.chart, sizes_chart(run, beside));
+  return 0;
+}
+
 /* The exit status is 1 if hill climbing ever ends at another vertex. */
 int execute_support(const BenchOptions &options)
 {
@@ -314,7 +334,7 @@ Json result_json(const BenchOptions &options, const Result &result)
 }
 
 constexpr const char *benchmarks = "sort, scan, broadphase, batching, narrowphase, rays, support, snapshots, "
-                                   "sleeping, bodies, worlds, scenes, floors or step";
+                                   "sleeping, bodies, worlds, scenes, floors, sizes or step";
 
 /* Throws InputError for options of one benchmark that are given to another. */
 void check_options(const BenchOptions &options)
@@ -326,7 +346,8 @@ void check_options(const BenchOptions &options)
   };
   only_of("--pairs", !options.pairs.empty(), {"narrowphase"});
   only_of("--broadphase", !options.broadphases.empty(), {"broadphase"});
-  only_of("--chart", !options.chart.empty(), {"broadphase"});
+  only_of("--chart", !options.chart.empty(), {"broadphase", "sizes"});
+  only_of("--beside", !options.beside.empty(), {"sizes"});
   only_of("--scene", !options.scenes.empty(), {"broadphase", "scenes", "floors"});
   only_of("--steps", !options.steps.empty(), {"scenes"});
   only_of("--table-in", !options.table.empty(), {"scenes", "floors"});
@@ -350,6 +371,7 @@ int execute(const BenchOptions &options)
   if (options.what == "worlds") return execute_worlds(options);
   if (options.what == "scenes") return execute_scenes(options);
   if (options.what == "floors") return execute_floors(options);
+  if (options.what == "sizes") return execute_sizes(options);
   const bool step = options.what == "step";
   if (!step && options.what != "sort" && options.what != "scan")
     throw InputError(fmt::format("bench '{}' is unknown; use {}", options.what, benchmarks));
@@ -368,17 +390,18 @@ Command bench_command(CLI::App &parser)
 {
   CLI::App *command = parser.add_subcommand(
       "bench", "time one part by itself: sort, scan, broadphase, batching, "
-               "narrowphase, rays, support, snapshots, sleeping, bodies, worlds, scenes, floors, step");
+               "narrowphase, rays, support, snapshots, sleeping, bodies, worlds, scenes, floors, sizes, step");
   auto options = std::make_shared<BenchOptions>();
   command
-      ->add_option("WHAT", options->what,
-                   "sort (32-bit keys with values), scan, broadphase (every one on the same moving bodies), batching "
-                   "(scenes of the talks; box-grid with --n), narrowphase (pairs of shapes), rays (against 100,000 "
-                   "boxes), support (farthest vertices of hulls), snapshots (states kept on the device, and saved to "
-                   "the host), sleeping (one island awake among bodies that sleep), bodies (that come and go, and "
-                   "one that is read), worlds (many small ones in a batch, and one after another), scenes (what every "
-                   "built-in scene takes: kernels, launches, memory, time), floors (bytes that each stage must "
-                   "move, and how long a copy of them takes), step (box-grid)")
+      ->add_option(
+          "WHAT", options->what,
+          "sort (32-bit keys with values), scan, broadphase (every one on the same moving bodies), batching "
+          "(scenes of the talks; box-grid with --n), narrowphase (pairs of shapes), rays (against 100,000 "
+          "boxes), support (farthest vertices of hulls), snapshots (states kept on the device, and saved to "
+          "the host), sleeping (one island awake among bodies that sleep), bodies (that come and go, and "
+          "one that is read), worlds (many small ones in a batch, and one after another), scenes (what every "
+          "built-in scene takes: kernels, launches, memory, time), floors (bytes that each stage must "
+          "move, and how long a copy of them takes), sizes (box-grid from 8 boxes to millions), step (box-grid)")
       ->required()
       ->type_name("");
   command->add_option("--on", options->on, "backend")->type_name("B")->capture_default_str();
@@ -386,7 +409,7 @@ Command bench_command(CLI::App &parser)
       ->add_option("--n", options->count,
                    "how many: 1048576 keys, 1000 to 1000000 bodies of broadphase, 1000000 rays, 4096 pairs of each "
                    "kind, 1000 to 100000 bodies of snapshots and sleeping, 1000 and 10000 of bodies, 1024 and 4096 "
-                   "worlds, 1000 bodies of step unless given")
+                   "worlds, 1000 bodies of step, at most 64000 of sizes unless given")
       ->type_name("N");
   command->add_option("--pairs", options->pairs, "narrowphase: these kinds alone, as box-box,hull32-hull32")
       ->delimiter(',')
@@ -411,8 +434,13 @@ Command bench_command(CLI::App &parser)
       ->add_option("--table-in", options->table,
                    "scenes, floors: write the table between the marks of this Markdown page, which name the backend")
       ->type_name("FILE.md");
-  command->add_option("--chart", options->chart, "broadphase: write charts of time over bodies, one a scene")
+  command
+      ->add_option("--chart", options->chart,
+                   "broadphase, sizes: write charts of time over bodies; of broadphase one a scene")
       ->type_name("FILE.svg");
+  command->add_option("--beside", options->beside, "sizes: runs to show beside this one, as their --json wrote them")
+      ->delimiter(',')
+      ->type_name("FILE.json,...");
   command->add_flag("--inexact", options->inexact, "accept devices that fail the exactness self-test");
   command->add_option("--json", options->json.path, "write the result as JSON; - for standard output")
       ->type_name("FILE");

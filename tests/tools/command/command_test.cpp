@@ -186,12 +186,32 @@ TEST_CASE("command: help and version", "[command]")
 TEST_CASE("command: run writes what its contract says", "[command]")
 {
   const Json run = json_of("run " + tiny + " --on serial --steps 20 --substeps 2");
-  check_keys(run, {"scene",    "backend",         "solver",           "bodies",         "steps",
-                   "dt",       "step_ms",         "stages",           "pairs",          "contacts",
-                   "colors",   "max_penetration", "mean_penetration", "kinetic_energy", "nonfinite",
-                   "asleep",   "islands",
-                   "overflow", "memory_bytes",    "kernels_built",    "build_ms",       "hash",
-                   "body_hash", "launches", "bytes_moved", "placement"});
+  check_keys(run, {"scene",
+                   "backend",
+                   "solver",
+                   "bodies",
+                   "steps",
+                   "dt",
+                   "step_ms",
+                   "stages",
+                   "pairs",
+                   "contacts",
+                   "colors",
+                   "max_penetration",
+                   "mean_penetration",
+                   "kinetic_energy",
+                   "nonfinite",
+                   "asleep",
+                   "islands",
+                   "overflow",
+                   "memory_bytes",
+                   "kernels_built",
+                   "build_ms",
+                   "hash",
+                   "body_hash",
+                   "launches",
+                   "bytes_moved",
+                   "placement"});
   CHECK(run["bytes_moved"] == 0);
   CHECK(run["placement"]["why"] == "as asked");
   check_keys(run["step_ms"], {"median", "min", "max"});
@@ -420,6 +440,44 @@ TEST_CASE("command: bench broadphase", "[command]")
   }
   CHECK(scenes == std::set<std::string>{"spheres", "pile", "one-large", "sizes", "static"});
   CHECK(contents(scratch.file("c.svg")).find("data-name=\"bvh\"") != std::string::npos);
+}
+
+TEST_CASE("command: bench sizes beside another run, and what it refuses", "[command]")
+{
+  const Scratch scratch;
+  const std::string other = scratch.file("other.json"), bad = scratch.file("bad.json");
+  std::ofstream(other) << R"({"name": "an engine", "sizes": [{"bodies": 8, "ms": {"median": 12.5}}]})";
+  const std::string line = "bench sizes --on serial --n 200 --beside " + other;
+  const Json bench = json_of(line + " --chart " + scratch.file("c.svg"));
+  check_keys(bench, {"what", "name", "sizes"});
+  CHECK(bench["name"] == "tandem, serial");
+  REQUIRE(bench["sizes"].size() == 2);
+  for (const Json &size : bench["sizes"]) {
+    check_keys(size, {"bodies", "ms", "max_penetration", "mean_penetration"});
+    CHECK(size["ms"]["median"].get<double>() > 0);
+    CHECK(size["max_penetration"].get<double>() > 0);
+    CHECK(size["max_penetration"].get<double>() < 0.005); /* the slop */
+    CHECK(size["mean_penetration"].get<double>() <= size["max_penetration"].get<double>());
+  }
+  CHECK(bench["sizes"][0]["bodies"] == 8);
+  CHECK(bench["sizes"][1]["bodies"] == 125);
+  const std::string chart = contents(scratch.file("c.svg"));
+  for (const char *name : {"data-name=\"tandem, serial\"", "data-name=\"an engine\""})
+    CHECK(chart.find(name) != std::string::npos);
+  const std::string table = command(line).out;
+  CHECK(table.find("an engine, ms") != std::string::npos);
+  CHECK(table.find("12.500") != std::string::npos);
+  check_refused("bench sizes --n 7", "--n");
+  check_refused("bench sizes --beside /nonexistent/a.json", "/nonexistent/a.json");
+  check_refused(line + " --json " + other, "other.json");
+  check_refused("bench step --beside " + other, "--beside is of bench sizes");
+  for (const char *text : {"", "[]", R"({"sizes": []})", R"({"name": "x", "sizes": [{"bodies": 8}]})",
+                           R"({"name": "x", "sizes": [{"bodies": 0, "ms": {"median": 1}}]})",
+                           R"({"name": "x", "sizes": [{"bodies": 8, "ms": {"median": 0}}]})"}) {
+    CAPTURE(text);
+    std::ofstream(bad) << text;
+    check_refused("bench sizes --n 8 --on serial --beside " + bad, "bad.json is no JSON of bench sizes");
+  }
 }
 
 TEST_CASE("command: bench broadphase of some, and what it refuses", "[command]")
