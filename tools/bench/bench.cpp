@@ -275,22 +275,31 @@ int execute_floors(const BenchOptions &options)
   return 0;
 }
 
-int execute_sizes(const BenchOptions &options)
+/* Runs to show together: those of files behind the one that is made, unless --n is 0. */
+std::vector<SizesRun> sizes_beside(const BenchOptions &options, DistinctFiles &files)
 {
-  const uint64_t most = options.count.empty() ? most_of_sizes : whole_number("--n", options.count, 8, most_bodies);
-  DistinctFiles files;
-  std::vector<SizesRun> beside;
+  std::vector<SizesRun> runs;
   for (const std::string &path : options.beside) {
     files.reads("--beside", path);
-    beside.push_back(read_sizes(path));
+    runs.push_back(read_sizes(path));
   }
+  return runs;
+}
+
+int execute_sizes(const BenchOptions &options)
+{
+  const uint64_t most = options.count.empty() ? most_of_sizes : whole_number("--n", options.count, 0, most_bodies);
+  DistinctFiles files;
+  std::vector<SizesRun> runs = sizes_beside(options, files);
+  if (most < 8 && (most > 0 || runs.empty() || !options.json.path.empty()))
+    throw InputError("--n: 8 boxes are the fewest; 0 draws the files of --beside alone, without --json");
   options.json.check(files);
   files.writes("--chart", options.chart);
-  const SizesRun run{"tandem, " + options.on, bench_sizes({options.on, {}, options.inexact}, most)};
-  if (!options.json.takes_standard_output())
-    fmt::print("sizes on {}: medians, ms a step\n{}", options.on, sizes_text(run, beside));
-  options.json.write(sizes_json(run));
-  if (!options.chart.empty()) write_file("--chart", options.chart, sizes_chart(run, beside));
+  if (most > 0)
+    runs.insert(runs.begin(), {"tandem, " + options.on, bench_sizes({options.on, {}, options.inexact}, most)});
+  if (!options.json.takes_standard_output()) fmt::print("a step of box-grid, median\n{}", sizes_text(runs));
+  if (most > 0) options.json.write(sizes_json(runs.front()));
+  if (!options.chart.empty()) write_file("--chart", options.chart, sizes_chart(runs));
   return 0;
 }
 
@@ -409,7 +418,7 @@ Command bench_command(CLI::App &parser)
       ->add_option("--n", options->count,
                    "how many: 1048576 keys, 1000 to 1000000 bodies of broadphase, 1000000 rays, 4096 pairs of each "
                    "kind, 1000 to 100000 bodies of snapshots and sleeping, 1000 and 10000 of bodies, 1024 and 4096 "
-                   "worlds, 1000 bodies of step, at most 64000 of sizes unless given")
+                   "worlds, 1000 bodies of step, at most 64000 of sizes (0: --beside alone) unless given")
       ->type_name("N");
   command->add_option("--pairs", options->pairs, "narrowphase: these kinds alone, as box-box,hull32-hull32")
       ->delimiter(',')

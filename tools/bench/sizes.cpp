@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -33,11 +34,29 @@ SizeTime time_of(uint64_t side, const Placement &placement)
   return time;
 }
 
-const SizeTime *of_bodies(const SizesRun &run, uint64_t bodies)
+const SizeTime *time_at(const SizesRun &run, uint64_t bodies)
 {
   const auto found =
       std::find_if(run.sizes.begin(), run.sizes.end(), [&](const SizeTime &time) { return time.bodies == bodies; });
   return found == run.sizes.end() ? nullptr : &*found;
+}
+
+std::set<uint64_t> sizes_of(const std::vector<SizesRun> &runs)
+{
+  std::set<uint64_t> sizes;
+  for (const SizesRun &run : runs)
+    for (const SizeTime &time : run.sizes) sizes.insert(time.bodies);
+  return sizes;
+}
+
+std::string cell_text(const SizeTime *time) { return time ? fmt::format("{:.3f}", time->milliseconds.median) : "-"; }
+
+/* Nanoseconds a box; penetration, mm: the most, the mean. */
+std::vector<std::string> figures_of(const SizeTime *time)
+{
+  if (!time) return {"-", "-", "-"};
+  return {fmt::format("{:.1f}", 1e6 * time->milliseconds.median / static_cast<double>(time->bodies)),
+          fmt::format("{:.2f}", time->deepest * 1e3), fmt::format("{:.3f}", time->mean_depth * 1e3)};
 }
 
 /* What a file leaves out of a figure that it need not have is 0, and shown as absent. */
@@ -91,21 +110,16 @@ SizesRun read_sizes(const std::string &path)
   }
 }
 
-std::string sizes_text(const SizesRun &run, const std::vector<SizesRun> &beside)
+std::string sizes_text(const std::vector<SizesRun> &runs)
 {
-  std::vector<std::string> header{"boxes", "ms", "ns a box", "penetration, mm: most", "mean"};
-  for (const SizesRun &other : beside) header.push_back(other.name + ", ms");
+  std::vector<std::string> header{"boxes"};
+  for (const SizesRun &run : runs) header.push_back(run.name + ", ms");
+  for (const char *figure : {"ns a box", "penetration, mm: most", "mean"}) header.push_back(figure);
   Table table(header);
-  for (const SizeTime &time : run.sizes) {
-    const double median = time.milliseconds.median;
-    std::vector<std::string> cells{fmt::format("{}", time.bodies), fmt::format("{:.3f}", median),
-                                   fmt::format("{:.1f}", 1e6 * median / static_cast<double>(time.bodies)),
-                                   fmt::format("{:.2f}", time.deepest * 1e3),
-                                   fmt::format("{:.3f}", time.mean_depth * 1e3)};
-    for (const SizesRun &other : beside) {
-      const SizeTime *same = of_bodies(other, time.bodies);
-      cells.push_back(same ? fmt::format("{:.3f}", same->milliseconds.median) : "-");
-    }
+  for (const uint64_t bodies : sizes_of(runs)) {
+    std::vector<std::string> cells{fmt::format("{}", bodies)};
+    for (const SizesRun &run : runs) cells.push_back(cell_text(time_at(run, bodies)));
+    for (const std::string &cell : figures_of(time_at(runs.front(), bodies))) cells.push_back(cell);
     table.add(cells);
   }
   return table.text("  ");
@@ -122,13 +136,10 @@ Json sizes_json(const SizesRun &run)
   return {{"what", "sizes"}, {"name", run.name}, {"sizes", sizes}};
 }
 
-std::string sizes_chart(const SizesRun &run, const std::vector<SizesRun> &beside)
+std::string sizes_chart(const std::vector<SizesRun> &runs)
 {
-  Chart chart{"a step of box-grid",
-              {"boxes", AxisScale::logarithmic},
-              {"ms a step, median", AxisScale::logarithmic},
-              {series_of(run)}};
-  for (const SizesRun &other : beside) chart.series.push_back(series_of(other));
+  Chart chart{"a step of box-grid", {"boxes", AxisScale::logarithmic}, {"ms a step, median", AxisScale::logarithmic}};
+  for (const SizesRun &run : runs) chart.series.push_back(series_of(run));
   return svg_of(chart);
 }
 

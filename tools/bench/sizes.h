@@ -33,14 +33,15 @@ struct SizesRun {
 
 constexpr uint64_t most_of_sizes = 64000; /* unless asked for: minutes on two cores */
 
-/* Sizes of at most `most` boxes, of which there must be at least one: 8. */
+/* Sizes of at most `most` boxes; the smallest is 8. */
 std::vector<SizeTime> bench_sizes(const Placement &placement, uint64_t most);
 
 /* Throws InputError that names the file and what it lacks. */
 SizesRun read_sizes(const std::string &path);
 
-std::string sizes_text(const SizesRun &run, const std::vector<SizesRun> &beside);
+/* The time of each run at each size that one of them has, and the error of the first. */
+std::string sizes_text(const std::vector<SizesRun> &runs);
 Json sizes_json(const SizesRun &run);
-std::string sizes_chart(const SizesRun &run, const std::vector<SizesRun> &beside);
+std::string sizes_chart(const std::vector<SizesRun> &runs);
 
 } // namespace tandem

@@ -467,7 +467,13 @@ TEST_CASE("command: bench sizes beside another run, and what it refuses", "[comm
   const std::string table = command(line).out;
   CHECK(table.find("an engine, ms") != std::string::npos);
   CHECK(table.find("12.500") != std::string::npos);
+  const Result drawn = command("bench sizes --n 0 --beside " + other + " --chart " + scratch.file("d.svg"));
+  CHECK(drawn.status == 0);
+  CHECK(drawn.out.find("12.500") != std::string::npos);
+  CHECK(contents(scratch.file("d.svg")).find("tandem, ") == std::string::npos);
   check_refused("bench sizes --n 7", "--n");
+  check_refused("bench sizes --n 0", "--n");
+  check_refused("bench sizes --n 0 --beside " + other + " --json -", "--n");
   check_refused("bench sizes --beside /nonexistent/a.json", "/nonexistent/a.json");
   check_refused(line + " --json " + other, "other.json");
   check_refused("bench step --beside " + other, "--beside is of bench sizes");
