@@ -43,4 +43,19 @@ TEST_CASE("command: bench scenes refuses what it cannot do", "[command]")
   check_refused("bench step --steps 5", "--steps is of bench scenes");
   check_refused("bench sleeping --table-in " + page, "--table-in is of bench scenes");
 }
+
+TEST_CASE("command: bench floors fills a page, and refuses what it cannot do", "[command]")
+{
+  const Scratch scratch;
+  const std::string page = scratch.file("page.md"), small = "bench floors --scene spheres:n=4,height=0 --on serial ";
+  std::ofstream(page) << "<!-- table floors serial: begin -->\n<!-- table floors serial: end -->\n";
+  const Json json = json_of(small + "--table-in " + page);
+  CHECK(json["what"] == "floors");
+  CHECK(contents(page).find("tandem bench floors --on serial --scene spheres:n=4,height=0") != std::string::npos);
+  check_refused(small + "--n 100", "--n: bench floors takes the size from --scene");
+  check_refused("bench floors --scene castle", "unknown scene 'castle'");
+  check_refused("bench floors --scene spheres:n=0", "n=");
+  check_refused("bench floors --on tbb --table-in " + page, "'<!-- table floors tbb: begin -->'");
+  check_refused("bench floors --on abacus", "abacus");
+}
 #endif
