@@ -65,6 +65,7 @@ struct World::Implementation {
     uint32_t room;  /* bodies that the buffers hold */
     uint32_t pairs; /* the first capacity */
     bool forces;
+    Features forced = 0; /* forced_features.h */
   };
   static Beginning beginning_of(const Scene &given, const Settings &chosen);
 
@@ -77,7 +78,7 @@ struct World::Implementation {
   Sizes sizes() const;
   Features features_run() const
   {
-    return settings.specialise ? scene_features : all_features() | (scene_features & FEATURE_WORLDS);
+    return settings.specialise ? scene_features | forced_features : all_features() | (scene_features & FEATURE_WORLDS);
   }
   void record_kernels();
   void place(const Placement &placement);
@@ -288,6 +289,7 @@ struct World::Implementation {
   Specialisation special;
   HullSizes hulls;
   TreeTables trees;
+  Features forced_features;                      /* run though the scene lacks them: forced_features.h */
   Features scene_features;                       /* what the scene needs, even if all features are run */
   std::unique_ptr<AutomaticPlacement> automatic; /* null: the placement is as asked */
   PlacedBackends backends;
