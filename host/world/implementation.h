@@ -124,6 +124,9 @@ struct World::Implementation {
   void launch_whole_step();
   void tell_substeps();
   std::span<const uint32_t> counts_expected() const;
+  void plan_colors() noexcept;
+  bool may_skip_contacts() const noexcept;
+  void plan_more_colors(uint32_t status);
   void accept();
   void prepare_repetition(uint32_t status, bool &may_forget);
   bool candidates_overflow() const;
