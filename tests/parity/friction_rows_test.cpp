@@ -13,10 +13,10 @@ using namespace tandem::parity;
 
 namespace {
 
-constexpr int steps = 40;
+constexpr int friction_steps = 40;
 
 /* Columns of boxes and balls, whose normals lie along the axes, and boxes that fall on them as they turn. */
-Scene pile(float friction)
+Scene half_smooth_pile(float friction)
 {
   Scene scene;
   scene.shapes = {half_space_shape(), box_shape(0.5f, 0.5f, 0.5f), sphere_shape(0.5f)};
@@ -44,12 +44,12 @@ Scene pile(float friction)
   return scene;
 }
 
-bool has_rows(World &world, Buffer buffer) { return world.memory().bytes(buffer) > 0; }
+bool has_rows_of(World &world, Buffer buffer) { return world.memory().bytes(buffer) > 0; }
 
-std::vector<uint64_t> hashes_of(World &world)
+std::vector<uint64_t> hashes_of_steps(World &world)
 {
   std::vector<uint64_t> hashes;
-  for (int k = 0; k < steps; ++k) {
+  for (int k = 0; k < friction_steps; ++k) {
     world.step();
     hashes.push_back(world.state_hash());
   }
@@ -64,14 +64,14 @@ TEST_CASE("parity on CPU: a scene without friction has no rows of it, and the bi
     const Settings settings = settings_for(solver.choice);
     for (const char *backend : {"serial", "tbb:threads=2,lanes=8"}) {
       CAPTURE(solver.name, backend);
-      World without(pile(0), settings, {backend, {}});
-      const auto with = world_with_features(pile(0), settings, {backend, {}}, FEATURE_FRICTION);
-      CHECK(hashes_of(without) == hashes_of(*with));
+      World without(half_smooth_pile(0), settings, {backend, {}});
+      const auto with = world_with_features(half_smooth_pile(0), settings, {backend, {}}, FEATURE_FRICTION);
+      CHECK(hashes_of_steps(without) == hashes_of_steps(*with));
       CHECK(without.statistics().contacts > 0);
       for (const Buffer rows : {Buffer::constraint_friction_impulse, Buffer::cached_friction_impulse,
                                 Buffer::previous_cached_friction_impulse}) {
-        CHECK(!has_rows(without, rows));
-        CHECK(has_rows(*with, rows));
+        CHECK(!has_rows_of(without, rows));
+        CHECK(has_rows_of(*with, rows));
       }
     }
   }
@@ -83,7 +83,7 @@ TEST_CASE("parity on OpenCL: a scene without friction has the bits of the CPU, w
   for (const SolverRow &solver : solvers()) {
     const Settings settings = settings_for(solver.choice);
     CAPTURE(solver.name);
-    World device(pile(0), settings, {"cl:pocl", {}}), serial(pile(0), settings, {"serial", {}});
+    World device(half_smooth_pile(0), settings, {"cl:pocl", {}}), serial(half_smooth_pile(0), settings, {"serial", {}});
     for (int k = 0; k < 10; ++k) {
       device.step();
       serial.step();
@@ -94,9 +94,9 @@ TEST_CASE("parity on OpenCL: a scene without friction has the bits of the CPU, w
 
 TEST_CASE("contacts without friction in a scene with friction keep positive zeros, however their bodies turn")
 {
-  World world(pile(0.5f), {}, {"serial", {}});
+  World world(half_smooth_pile(0.5f), {}, {"serial", {}});
   uint32_t smooth = 0;
-  for (int k = 0; k < steps; ++k) {
+  for (int k = 0; k < friction_steps; ++k) {
     world.step();
     const auto counts = world.memory().read<uint32_t>(Buffer::counts, COUNT_TOTAL);
     const uint32_t constraints = counts[COUNT_CONSTRAINTS];
@@ -118,7 +118,7 @@ TEST_CASE("parity on CPU: a scene that gains friction goes on with the bits of a
   for (const Solver solver : {Solver::soft_step, Solver::pgs, Solver::xpbd, Solver::jacobi}) {
     Settings settings = settings_for(solver), everything = settings;
     everything.specialise = false;
-    World world(pile(0), settings, {"serial", {}}), whole(pile(0), everything, {"serial", {}});
+    World world(half_smooth_pile(0), settings, {"serial", {}}), whole(half_smooth_pile(0), everything, {"serial", {}});
     CAPTURE(row_of(solver).name);
     for (World *one : {&world, &whole}) {
       for (int k = 0; k < 20; ++k) one->step();
@@ -128,20 +128,20 @@ TEST_CASE("parity on CPU: a scene that gains friction goes on with the bits of a
       for (uint32_t body = 0; body < one->scene().bodies.size(); body += 2)
         one->set_material(one->id_of(body), material);
     }
-    CHECK(hashes_of(world) == hashes_of(whole));
-    CHECK(has_rows(world, Buffer::cached_friction_impulse));
+    CHECK(hashes_of_steps(world) == hashes_of_steps(whole));
+    CHECK(has_rows_of(world, Buffer::cached_friction_impulse));
   }
 }
 
 TEST_CASE("a world without friction is saved and restored, and goes on with the same bits")
 {
   for (const Solver solver : {Solver::soft_step, Solver::xpbd, Solver::avbd}) {
-    World world(pile(0), settings_for(solver));
+    World world(half_smooth_pile(0), settings_for(solver));
     for (int k = 0; k < 20; ++k) world.step();
     World restored(world.save());
     CHECK(restored.state_hash() == world.state_hash());
-    CHECK(!has_rows(restored, Buffer::cached_friction_impulse));
-    CHECK(hashes_of(restored) == hashes_of(world));
+    CHECK(!has_rows_of(restored, Buffer::cached_friction_impulse));
+    CHECK(hashes_of_steps(restored) == hashes_of_steps(world));
   }
 }
 
@@ -150,11 +150,11 @@ TEST_CASE("parity on CPU: only soft-step keeps the warm starts of substeps, and 
   for (const SolverRow &solver : solvers()) {
     const Settings settings = settings_for(solver.choice);
     CAPTURE(solver.name);
-    World world(pile(0.5f), settings, {"tbb:threads=2,lanes=4", {}});
-    const auto keeping =
-        world_with_features(pile(0.5f), settings, {"tbb:threads=2,lanes=4", {}}, FEATURE_SUBSTEP_WARM_START);
-    CHECK(hashes_of(world) == hashes_of(*keeping));
-    CHECK(has_rows(world, Buffer::warm_start_impulse) == (solver.choice == Solver::soft_step));
-    CHECK(has_rows(*keeping, Buffer::warm_start_impulse));
+    World world(half_smooth_pile(0.5f), settings, {"tbb:threads=2,lanes=4", {}});
+    const auto keeping = world_with_features(half_smooth_pile(0.5f), settings, {"tbb:threads=2,lanes=4", {}},
+                                             FEATURE_SUBSTEP_WARM_START);
+    CHECK(hashes_of_steps(world) == hashes_of_steps(*keeping));
+    CHECK(has_rows_of(world, Buffer::warm_start_impulse) == (solver.choice == Solver::soft_step));
+    CHECK(has_rows_of(*keeping, Buffer::warm_start_impulse));
   }
 }

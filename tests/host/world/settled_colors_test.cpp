@@ -14,13 +14,13 @@
 namespace tandem {
 namespace {
 
-const std::string pile = "pyramid:rows=5";
+const std::string settling_pile = "pyramid:rows=5";
 
 struct ColorLaunches {
   uint32_t rounds = 0, passes = 0;
 };
 
-ColorLaunches launches_of_step(World &world)
+ColorLaunches color_launches_of(World &world)
 {
   ColorLaunches launches;
   world.set_observer([&](const Launch &launch) {
@@ -32,12 +32,12 @@ ColorLaunches launches_of_step(World &world)
   return launches;
 }
 
-void run(World &world, int steps)
+void step_world(World &world, int steps)
 {
   for (int k = 0; k < steps; ++k) world.step();
 }
 
-Body falling_box()
+Body box_onto_pile()
 {
   Body box;
   box.position = {0.1, 6, 0.05};
@@ -48,15 +48,15 @@ Body falling_box()
 
 TEST_CASE("a settled pile launches the colours that it has, and colours nothing")
 {
-  World world(load_scene(pile));
-  run(world, 20);
-  const ColorLaunches early = launches_of_step(world);
+  World world(load_scene(settling_pile));
+  step_world(world, 20);
+  const ColorLaunches early = color_launches_of(world);
   const uint32_t colors = world.statistics().colors;
   REQUIRE(colors > 2);
   CHECK(early.rounds >= 4);
   CHECK(early.passes % (colors + 1) == 0);
-  run(world, 300);
-  const ColorLaunches late = launches_of_step(world);
+  step_world(world, 300);
+  const ColorLaunches late = color_launches_of(world);
   REQUIRE(world.statistics().colors == colors);
   CHECK(late.rounds == 0);
   CHECK(late.passes == early.passes / (colors + 1) * colors);
@@ -67,11 +67,11 @@ TEST_CASE("a settled pile that is hit has the bits of one that never took its co
   for (const char *backend : {"serial", "tbb:threads=2,lanes=4"}) {
     Settings settings;
     settings.check = true;
-    World settled(load_scene(pile), settings, {backend, {}});
-    auto other = std::make_unique<World>(load_scene(pile), settings, Placement{backend, {}});
+    World settled(load_scene(settling_pile), settings, {backend, {}});
+    auto other = std::make_unique<World>(load_scene(settling_pile), settings, Placement{backend, {}});
     for (int k = 0; k < 400; ++k) {
       if (k == 300)
-        for (World *world : {&settled, other.get()}) world->create_body(falling_box());
+        for (World *world : {&settled, other.get()}) world->create_body(box_onto_pile());
       settled.step();
       other->step();
       if (k % 20 == 0) other = std::make_unique<World>(other->save(), Placement{backend, {}});
