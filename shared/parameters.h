@@ -37,8 +37,10 @@ typedef struct {
   PARAMETER_REAL warm_start_scale;     /* of the impulses of the last step, if its substeps were longer or shorter */
   PARAMETER_REAL gravity_length;       /* m/s^2 */
   PARAMETER_REAL sleep_speed;          /* m/s, bodies of a metre and more rest below it */
-  uint sleep_steps;                    /* of rest, before a body may fall asleep */
-  ulong features;                      /* a bit for each row of features.def; an even number of reals stands before */
+  PARAMETER_REAL zero;                 /* 0, of which no compiler knows: docs/exactness.md, rusticl */
+  PARAMETER_REAL unused;               /* for an even number */
+  uint sleep_steps; /* of rest, before a body may fall asleep */
+  ulong features;   /* a bit for each row of features.def; an even number of reals stands before */
 } Parameters;
 #endif
 

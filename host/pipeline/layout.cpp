@@ -101,7 +101,9 @@ uint32_t points_of_pair(Features features)
 uint32_t elements_of_item(Buffer buffer, Features features)
 {
   const uint32_t elements = row_of(buffer).per_item;
-  const bool has_planes = buffer == Buffer::manifold_points || buffer == Buffer::constraint_points;
+  const bool has_planes = buffer == Buffer::manifold_points || buffer == Buffer::constraint_points,
+             ends_in_friction = buffer == Buffer::nncg_impulse || buffer == Buffer::nncg_direction;
+  if (ends_in_friction && (features & FEATURE_FRICTION) == 0) return elements - 1;
   return has_planes ? elements / most_points_of_pair * points_of_pair(features) : elements;
 }
 

@@ -7,6 +7,7 @@
  */
 #include "host/pipeline/step.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "host/pipeline/batching/batcher.h"
@@ -40,16 +41,9 @@ public:
     if (has(FEATURE_LOCKS)) run(Kernel::lock_bodies);
     run_extensions(StepPoint::begin);
     find_pairs();
-    if (has(FEATURE_TREES)) find_leaf_pairs();
-    run_extensions(StepPoint::pairs);
-    find_contacts();
-    if (has(FEATURE_TREES)) merge_contacts();
-    run_extensions(StepPoint::contacts);
-    color_contacts();
-    run(Kernel::prepare_contacts);
+    if (plan().apart) expect_no_pairs();
+    else find_constraints();
     if (plan().substeps.automatic) weigh_standing();
-    if (plan().colors > COLOR_LIMIT) run_range(Kernel::mark_overflow, COLOR_START + COLOR_OVERFLOW, COUNT_CONSTRAINTS);
-    if (has(FEATURE_ROLLING)) run(Kernel::prepare_rolling);
     run_extensions(StepPoint::constraints);
     row_of(settings().solver).launch(*this);
     if (has(FEATURE_CONTINUOUS)) keep_out_of_walls();
@@ -59,6 +53,23 @@ public:
   }
 
 private:
+  /* Every pair counts as one that has no colour yet, so that a step with pairs runs again. What the last step, which
+   * had none, left of lists and colours is still right. */
+  void expect_no_pairs() { run(Kernel::compact_total, {COUNT_BODIES, COUNT_UNCOLORED}, {Buffer::pair_start}); }
+
+  void find_constraints()
+  {
+    if (has(FEATURE_TREES)) find_leaf_pairs();
+    run_extensions(StepPoint::pairs);
+    find_contacts();
+    if (has(FEATURE_TREES)) merge_contacts();
+    run_extensions(StepPoint::contacts);
+    color_contacts();
+    run(Kernel::prepare_contacts);
+    if (plan().colors > COLOR_LIMIT) run_range(Kernel::mark_overflow, COLOR_START + COLOR_OVERFLOW, COUNT_CONSTRAINTS);
+    if (has(FEATURE_ROLLING)) run(Kernel::prepare_rolling);
+  }
+
   void find_pairs()
   {
     run(Kernel::compute_bounds);
@@ -233,7 +244,21 @@ private:
   }
 };
 
+constexpr uint32_t longest_wait = 4096;
+
 } // namespace
+
+void SettledColors::note_step(uint32_t rounds, uint32_t now)
+{
+  steps = rounds == 0 && now == colors ? std::min(steps + 1, longest_wait) : 0;
+  colors = now;
+}
+
+void SettledColors::note_repetition()
+{
+  if (are_kept()) wait = std::min(2 * wait, longest_wait);
+  steps = 0;
+}
 
 void launch_step(Launcher &launcher, const StepPlan &plan, const Settings &settings)
 {

@@ -11,6 +11,19 @@
 
 namespace tandem {
 
+/* Whether all contacts keep the colours of the step before, so that a step needs no rounds of colouring and no colour
+ * to spare. A world that takes this for granted runs the step again in which it ends; it therefore waits for so many
+ * steps in a row that they outweigh one, and twice as long each time that it was wrong. */
+struct SettledColors {
+  uint32_t steps = 0; /* in a row that coloured nothing and had as many colours as the one before */
+  uint32_t wait = 60;
+  uint32_t colors = 0; /* of the last step */
+
+  bool are_kept() const { return steps >= wait; }
+  void note_step(uint32_t rounds, uint32_t now);
+  void note_repetition();
+};
+
 /* What the host knows when it launches a step. It sizes launches but never changes results. If too few colours or
  * rounds are launched, the status says so, and the step runs again with more. */
 struct StepPlan {
@@ -27,8 +40,10 @@ struct StepPlan {
   uint32_t island_rounds = 4;
   uint32_t colors = 16; /* up to COLOR_LIMIT + 1: the overflow constraints */
   uint32_t rounds = 16;
-  SubstepChoice substeps;                    /* if the world chooses them itself */
-  uint32_t hits = 0;                         /* that a cast has left on the device for kernels of modules */
+  SettledColors settled;
+  bool apart = false;     /* no bounds have overlapped for so long that only the broadphase looks whether they do now */
+  SubstepChoice substeps; /* if the world chooses them itself */
+  uint32_t hits = 0;      /* that a cast has left on the device for kernels of modules */
   std::array<uint32_t, COUNT_TOTAL> known{}; /* counts after the last step */
 };
 

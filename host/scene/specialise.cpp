@@ -343,6 +343,7 @@ Features features_of(const Scene &scene, const Settings &settings)
       pairs | list_features(pairs) | point_features(pairs) | convex_features(scene) | body_features(scene);
   features |= narrowphase_features(scene, features, settings) | support_features(features, settings);
   if (settings.events) features |= FEATURE_EVENTS;
+  if (settings.solver == Solver::soft_step) features |= FEATURE_SUBSTEP_WARM_START;
   return features;
 }
 

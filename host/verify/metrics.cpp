@@ -47,7 +47,7 @@ public:
   {
     Memory &memory = world.memory();
     const auto counts = memory.read<uint32_t>(Buffer::counts, COUNT_TOTAL);
-    if (memory.bytes(Buffer::constraint_friction_impulse) == 0) return; /* the solver has no impulses */
+    if (memory.bytes(Buffer::constraint_normal_impulse) == 0) return; /* the solver has no impulses */
     count = counts[COUNT_CONSTRAINTS];
     stride_ = counts[CAPACITY_PAIRS];
     a_ = memory.read<uint32_t>(Buffer::constraint_a, count);
@@ -58,7 +58,9 @@ public:
     read_points(memory, counts[CAPACITY_POINTS]);
     for (size_t k = 0; k < 2; ++k) center_[k] = plane(memory, Buffer::constraint_center, k);
     normal_impulse_ = plane(memory, Buffer::constraint_normal_impulse, 0);
-    friction_impulse_ = plane(memory, Buffer::constraint_friction_impulse, 0);
+    friction_impulse_ = memory.bytes(Buffer::constraint_friction_impulse) > 0
+                            ? plane(memory, Buffer::constraint_friction_impulse, 0)
+                            : std::vector<double>(4 * count); /* a scene without friction: shared/friction_rows.h */
     if (memory.bytes(Buffer::constraint_restitution) == 0) return;
     for (size_t k = 0; k < 2; ++k) restitution_[k] = plane(memory, Buffer::constraint_restitution, k);
   }

@@ -13,6 +13,7 @@
 #include "host/runtime/interface/module.h"
 #include "host/runtime/recorder.h"
 #include "host/scene/parameters.h"
+#include "host/world/forced_features.h"
 #include "shared/batching/limits.h"
 
 namespace tandem {
@@ -34,7 +35,7 @@ World::Implementation::Beginning World::Implementation::beginning_of(const Scene
 {
   const auto bodies = static_cast<uint32_t>(given.bodies.size());
   const uint32_t pairs = first_capacity(given, chosen);
-  return {given, chosen, specialise(given, chosen), BodySlots(bodies), bodies, pairs, false};
+  return {given, chosen, specialise(given, chosen), BodySlots(bodies), bodies, pairs, false, 0};
 }
 
 World::Implementation::Implementation(const Scene &given, const Settings &chosen, const Placement &placement)
@@ -45,7 +46,8 @@ World::Implementation::Implementation(Beginning beginning, const Placement &plac
     : scene(std::move(beginning.scene)), settings(std::move(beginning.settings)),
       settings_in_use(with_substeps(settings, first_choice(settings))),
       chooses(settings.broadphase == Broadphase::automatic), special(std::move(beginning.special)),
-      hulls(hull_sizes(scene, cube_map_cells(settings))), trees(tree_tables(scene)), scene_features(special.features),
+      hulls(hull_sizes(scene, cube_map_cells(settings))), trees(tree_tables(scene)), forced_features(beginning.forced),
+      scene_features(special.features),
       automatic(placement.automatic ? std::make_unique<AutomaticPlacement>(placement) : nullptr),
       backends(shared ? PlacedBackends(*shared, features_run())
                       : PlacedBackends(AutomaticPlacement::first_of(placement), features_run())),
@@ -76,6 +78,16 @@ World::Implementation::Implementation(Beginning beginning, const Placement &plac
     note_motion(slot, initial_velocity_of(scene.bodies[slot]));
     if (scene.bodies[slot].type == BodyType::dynamic) ++awake_dynamics;
   }
+}
+
+std::unique_ptr<World> world_with_features(const Scene &scene, const Settings &settings, const Placement &placement,
+                                           Features forced)
+{
+  const minicl::ExactFloatingPoint environment;
+  World::Implementation::Beginning beginning = World::Implementation::beginning_of(scene, settings);
+  beginning.forced = forced;
+  return std::unique_ptr<World>(
+      new World(std::make_unique<World::Implementation>(std::move(beginning), placement, nullptr)));
 }
 
 World::Implementation::~Implementation() { backends.finish_at_last(); }

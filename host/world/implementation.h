@@ -65,6 +65,7 @@ struct World::Implementation {
     uint32_t room;  /* bodies that the buffers hold */
     uint32_t pairs; /* the first capacity */
     bool forces;
+    Features forced = 0; /* forced_features.h */
   };
   static Beginning beginning_of(const Scene &given, const Settings &chosen);
 
@@ -77,7 +78,7 @@ struct World::Implementation {
   Sizes sizes() const;
   Features features_run() const
   {
-    return settings.specialise ? scene_features : all_features() | (scene_features & FEATURE_WORLDS);
+    return settings.specialise ? scene_features | forced_features : all_features() | (scene_features & FEATURE_WORLDS);
   }
   void record_kernels();
   void place(const Placement &placement);
@@ -123,6 +124,9 @@ struct World::Implementation {
   void launch_whole_step();
   void tell_substeps();
   std::span<const uint32_t> counts_expected() const;
+  void plan_colors() noexcept;
+  bool may_skip_contacts() const noexcept;
+  void plan_more_colors(uint32_t status);
   void accept();
   void prepare_repetition(uint32_t status, bool &may_forget);
   bool candidates_overflow() const;
@@ -288,6 +292,7 @@ struct World::Implementation {
   Specialisation special;
   HullSizes hulls;
   TreeTables trees;
+  Features forced_features;                      /* run though the scene lacks them: forced_features.h */
   Features scene_features;                       /* what the scene needs, even if all features are run */
   std::unique_ptr<AutomaticPlacement> automatic; /* null: the placement is as asked */
   PlacedBackends backends;

@@ -21,7 +21,7 @@ namespace {
 /* Each repetition fixes one cause; many repetitions in one step mean that something is wrong. */
 constexpr size_t most_repetitions = 64;
 
-constexpr uint32_t most_rounds = 1 << 20;
+constexpr uint32_t least_rounds = 4, most_rounds = 1 << 20;
 
 } // namespace
 
@@ -178,6 +178,7 @@ void World::Implementation::undo(const Attempt &before) noexcept
   quarantined.erase(quarantined.begin() + static_cast<ptrdiff_t>(before.quarantined), quarantined.end());
   const PairCapacity grown = capacity();
   plan = before.plan;
+  plan.apart = false; /* an attempt may have left lists and colours of other pairs */
   set_capacity(grown);
   plan.sleepers = !sleepers.empty();
   plan.other_sleepers = true;
@@ -235,8 +236,37 @@ void World::Implementation::begin_launches()
   launches_ended = false;
 }
 
-/* Plans some rounds and one colour more than were needed, so that a growing scene does not repeat every step. Nothing
- * can fail once the state has been accepted. */
+/* Plans some rounds and one colour more than were needed, so that a growing scene does not repeat every step, and none
+ * where the colours have settled. */
+void World::Implementation::plan_colors() noexcept
+{
+  const uint32_t rounds = plan.known[COUNT_ROUNDS], colors = plan.known[COUNT_COLORS];
+  plan.settled.note_step(rounds, colors);
+  const bool settled = plan.settled.are_kept();
+  plan.rounds = settled ? 0 : std::clamp<uint32_t>(rounds + 3, least_rounds, most_rounds);
+  plan.colors = std::min(colors + (settled ? 0 : 1), COLOR_LIMIT);
+  if (colors > COLOR_LIMIT) plan.colors = COLOR_LIMIT + 1;
+  plan.apart = settled && plan.known[COUNT_PAIRS] == 0 && may_skip_contacts();
+}
+
+/* Sleepers have contacts of their own, which share the lists; modules may read what was skipped. */
+bool World::Implementation::may_skip_contacts() const noexcept
+{
+  return !settings.sleeping && settings.extensions.empty() && !is_batch();
+}
+
+void World::Implementation::plan_more_colors(uint32_t status)
+{
+  const bool lacked_rounds = (status & STATUS_ROUNDS) != 0, lacked_colors = (status & STATUS_COLORS) != 0;
+  if (lacked_colors) plan.colors = plan.known[COUNT_COLORS];
+  if (!lacked_rounds && !lacked_colors) return;
+  if (plan.settled.are_kept()) plan.colors = std::max(plan.colors, std::min(plan.known[COUNT_COLORS] + 1, COLOR_LIMIT));
+  plan.settled.note_repetition();
+  plan.apart = false;
+  if (lacked_rounds) plan.rounds = std::clamp(2 * plan.rounds, least_rounds, most_rounds);
+}
+
+/* Nothing can fail once the state has been accepted. */
 void World::Implementation::accept()
 {
   if (settings.check && !fault) fault = find_batch_fault(memory, plan.known, special.order, statistics.steps);
@@ -248,9 +278,7 @@ void World::Implementation::accept()
   ++statistics.steps;
   cached_pairs = plan.known[COUNT_PAIRS];
   awake_at_last = special.awake;
-  plan.rounds = std::clamp<uint32_t>(plan.known[COUNT_ROUNDS] + 3, 4, most_rounds);
-  plan.colors = std::min(plan.known[COUNT_COLORS] + 1, COLOR_LIMIT);
-  if (plan.known[COUNT_COLORS] > COLOR_LIMIT) plan.colors = COLOR_LIMIT + 1;
+  plan_colors();
   if (plan.drowsy) plan.island_rounds = std::max<uint32_t>(plan.known[COUNT_ISLAND_ROUNDS] + 2, 4);
   plan.drowsy = plan.known[COUNT_DROWSY] > 0;
   trees_trial.note_step(settings.broadphase == Broadphase::trees, plan.known[COUNT_INSERTED] > 0);
@@ -261,8 +289,7 @@ void World::Implementation::accept()
 void World::Implementation::prepare_repetition(uint32_t status, bool &may_forget)
 {
   if (status & STATUS_DEADLOCK) return backends.do_without_resident_groups();
-  if (status & STATUS_ROUNDS) plan.rounds = std::min(2 * plan.rounds, most_rounds);
-  if (status & STATUS_COLORS) plan.colors = plan.known[COUNT_COLORS];
+  plan_more_colors(status);
   if (status & STATUS_ISLANDS) plan.island_rounds = std::min(2 * plan.island_rounds, most_rounds);
   if ((status & STATUS_SUBSTEPS) && !(status & lacks_contacts))
     raise_substeps(plan.substeps, plan.known[COUNT_LOAD_RATE], settings);

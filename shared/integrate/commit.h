@@ -8,6 +8,7 @@
 #ifndef TANDEM_SHARED_INTEGRATE_COMMIT_H
 #define TANDEM_SHARED_INTEGRATE_COMMIT_H
 
+#include "shared/friction_rows.h"
 #include "shared/integrate/prepare.h"
 
 SHARED void begin_step_item(GLOBAL uint *counts, uint i)
@@ -108,17 +109,17 @@ SHARED void cache_normals_item(GLOBAL const float4 *manifold_normal, GLOBAL floa
   store_float4(cached_normal, i, load_float4(manifold_normal, i));
 }
 
-SHARED void cache_pairs_item(GLOBAL const uint *pair_b, GLOBAL const uint *pair_color,
-                             GLOBAL const uint *manifold_feature, GLOBAL uint *cached_b, GLOBAL uint *cached_color,
-                             GLOBAL uint *cached_feature, GLOBAL float4 *cached_normal_impulse,
-                             GLOBAL float4 *cached_friction_impulse, item_index i)
+SHARED void cache_pairs_item(GLOBAL const Parameters *parameters, GLOBAL const uint *pair_b,
+                             GLOBAL const uint *pair_color, GLOBAL const uint *manifold_feature, GLOBAL uint *cached_b,
+                             GLOBAL uint *cached_color, GLOBAL uint *cached_feature,
+                             GLOBAL float4 *cached_normal_impulse, GLOBAL float4 *cached_friction_impulse, item_index i)
 {
   vec4 zero = make_vec4(R(0.0), R(0.0), R(0.0), R(0.0));
   store_uint(cached_b, i, load_uint(pair_b, i));
   store_uint(cached_color, i, load_uint(pair_color, i));
   store_uint(cached_feature, i, load_uint(manifold_feature, i));
   store_float4(cached_normal_impulse, i, zero);
-  store_float4(cached_friction_impulse, i, zero);
+  store_friction(parameters, cached_friction_impulse, i, zero);
 }
 
 /* Clears the rows that only pairs with a constraint will fill, because the others must not keep what an older step
@@ -130,15 +131,16 @@ SHARED void clear_cached_item(GLOBAL float4 *rows, uint per_item, item_index i)
 
 /* The next step searches by slot. Impulses stay in the order of their points, and the slots identify them. Friction is
  * stored as a vector in world axes, because its tangents turn with the normal. */
-SHARED void cache_impulses_item(GLOBAL const uint *constraint_pair, GLOBAL const float4 *constraint_normal,
-                                GLOBAL const float4 *constraint_normal_impulse,
+SHARED void cache_impulses_item(GLOBAL const Parameters *parameters, GLOBAL const uint *constraint_pair,
+                                GLOBAL const float4 *constraint_normal, GLOBAL const float4 *constraint_normal_impulse,
                                 GLOBAL const float4 *constraint_friction_impulse, GLOBAL float4 *cached_normal_impulse,
                                 GLOBAL float4 *cached_friction_impulse, item_index i)
 {
   uint_lanes pair = load_uint(constraint_pair, i);
+  store_float4(cached_normal_impulse, pair, load_float4(constraint_normal_impulse, i));
+  if (!HAS_FEATURE(parameters, FRICTION)) return;
   vec4 friction = load_float4(constraint_friction_impulse, i);
   tangents t = tangents_of(xyz(load_float4(constraint_normal, i)));
-  store_float4(cached_normal_impulse, pair, load_float4(constraint_normal_impulse, i));
   store_float4(cached_friction_impulse, pair,
                extend(add(scale(t.first, friction.x), scale(t.second, friction.y)), friction.z));
 }

@@ -27,8 +27,8 @@ SHARED mask state_is_finite(read_bodies bodies, item_index i)
          quaternion_is_finite(load_float4(bodies.orientation, i));
 }
 
-SHARED void prepare_bodies_item(GLOBAL const float4 *body_mass, read_bodies bodies, GLOBAL uint *counts,
-                                GLOBAL float4 *solver_velocity, GLOBAL float4 *solver_delta_pose,
+SHARED void prepare_bodies_item(GLOBAL const Parameters *parameters, GLOBAL const float4 *body_mass, read_bodies bodies,
+                                GLOBAL uint *counts, GLOBAL float4 *solver_velocity, GLOBAL float4 *solver_delta_pose,
                                 GLOBAL float4 *warm_start_impulse, GLOBAL float4 *solver_inertia,
                                 GLOBAL float4 *solver_orientation, GLOBAL uint *body_colors, GLOBAL uint *body_bid,
                                 GLOBAL uint *body_falls, item_index i)
@@ -40,8 +40,10 @@ SHARED void prepare_bodies_item(GLOBAL const float4 *body_mass, read_bodies bodi
   store_velocity(solver_velocity, i, m);
   store_float4(solver_delta_pose, i * 2u, zero);
   store_float4(solver_delta_pose, i * 2u + 1u, zero);
-  store_float4(warm_start_impulse, i * 2u, zero);
-  store_float4(warm_start_impulse, i * 2u + 1u, zero);
+  if (HAS_FEATURE(parameters, SUBSTEP_WARM_START)) {
+    store_float4(warm_start_impulse, i * 2u, zero);
+    store_float4(warm_start_impulse, i * 2u + 1u, zero);
+  }
   store_inertia(solver_inertia, i,
                 rotate_diagonal(rotation_of(quat_from(orientation)), xyz(load_float4(body_mass, i * 2u))));
   store_float4(solver_orientation, i, orientation);

@@ -4,8 +4,28 @@
 
 #include "shared/records.h"
 
-/* warm_start_impulse: the impulse of the body's constraints in the last substep, 0 in the first; this kernel applies
- * and clears it. solver_free_power tells integrate_positions whether constraints push the body. */
+/* The impulse of the body's constraints in the last substep, 0 in the first: linear and angular. Other solvers than
+ * soft-step gather none, and theirs is a 0 from memory, because adding it turns -0 into +0 on every compiler alike. */
+typedef struct {
+  vec3 linear, angular;
+} warm_start_impulses;
+
+SHARED warm_start_impulses take_warm_start(GLOBAL const Parameters *parameters, GLOBAL float4 *warm_start_impulse,
+                                           item_index i)
+{
+  real zero = (real)parameters->zero;
+  warm_start_impulses taken = {make_vec3(zero, zero, zero), make_vec3(zero, zero, zero)};
+  if (HAS_FEATURE(parameters, SUBSTEP_WARM_START)) {
+    vec4 none = make_vec4(R(0.0), R(0.0), R(0.0), R(0.0));
+    taken.linear = xyz(load_float4(warm_start_impulse, i * 2u));
+    taken.angular = xyz(load_float4(warm_start_impulse, i * 2u + 1u));
+    store_float4(warm_start_impulse, i * 2u, none);
+    store_float4(warm_start_impulse, i * 2u + 1u, none);
+  }
+  return taken;
+}
+
+/* solver_free_power tells integrate_positions whether constraints push the body. */
 SHARED void integrate_velocities_item(GLOBAL const Parameters *parameters, GLOBAL const float4 *body_mass,
                                       GLOBAL const float4 *body_gravity, GLOBAL const uint *body_lock,
                                       GLOBAL const float4 *solver_inertia, GLOBAL float4 *solver_velocity,
@@ -26,14 +46,11 @@ SHARED void integrate_velocities_item(GLOBAL const Parameters *parameters, GLOBA
   if (HAS_FEATURE(parameters, LOCKS)) /* forces may have pushed as well */
     m.linear = without_locked_axes(m.linear, linear_locks(load_uint(body_lock, i)));
   real free_power = dot3(gravity, m.linear);
-  m.linear = add_scaled(m.linear, xyz(load_float4(warm_start_impulse, i * 2u)), m.inverse_mass);
+  warm_start_impulses taken = take_warm_start(parameters, warm_start_impulse, i);
+  m.linear = add_scaled(m.linear, taken.linear, m.inverse_mass);
   if (HAS_FEATURE(parameters, LOCKS)) m.linear = without_locked_axes(m.linear, linear_locks(load_uint(body_lock, i)));
-  m.angular = add(m.angular,
-                  symmetric_times(load_inertia(solver_inertia, i), xyz(load_float4(warm_start_impulse, i * 2u + 1u))));
+  m.angular = add(m.angular, symmetric_times(load_inertia(solver_inertia, i), taken.angular));
   store_velocity_if(moves, solver_velocity, i, m);
-  vec4 zero = make_vec4(R(0.0), R(0.0), R(0.0), R(0.0));
-  store_float4(warm_start_impulse, i * 2u, zero);
-  store_float4(warm_start_impulse, i * 2u + 1u, zero);
   store_real(solver_free_power, i, free_power);
 }
 

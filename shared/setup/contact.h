@@ -324,14 +324,16 @@ typedef struct {
   vec4 normal, friction;
 } old_impulses;
 
-SHARED old_impulses load_old_impulses(read_cached_contacts cached_contacts, uint_lanes cached)
+SHARED old_impulses load_old_impulses(GLOBAL const Parameters *parameters, read_cached_contacts cached_contacts,
+                                      uint_lanes cached)
 {
   mask is_cached = cached != (uint_lanes)INDEX_NONE;
   uint_lanes from = choose(is_cached, cached, (uint_lanes)0u);
+  vec4 none = make_vec4(R(0.0), R(0.0), R(0.0), R(0.0));
   old_impulses old = {is_cached, load_uint(cached_contacts.feature, from),
-                      load_float4(cached_contacts.normal_impulse, from),
-                      choose4(is_cached, load_float4(cached_contacts.friction_impulse, from),
-                              make_vec4(R(0.0), R(0.0), R(0.0), R(0.0)))};
+                      load_float4(cached_contacts.normal_impulse, from), none};
+  if (HAS_FEATURE(parameters, FRICTION))
+    old.friction = choose4(is_cached, load_float4(cached_contacts.friction_impulse, from), none);
   return old;
 }
 
@@ -376,13 +378,19 @@ SHARED real friction_between(const contact_setup *s, vec3 center_a, vec3 center_
   return choose(length_of(slide) < STICKING_SPEED, s->between.static_friction, s->between.dynamic_friction);
 }
 
+/* Without -0, whatever the tangents: friction_rows.h. */
+SHARED real positive_zero(mask wanted, real x) { return choose(wanted & (x == R(0.0)), (real)R(0.0), x); }
+
 /* The friction impulse of the last step, along the tangents of this step. */
-SHARED vec4 kept_friction(GLOBAL const Parameters *parameters, const old_impulses *old, vec3 normal, real radius)
+SHARED vec4 kept_friction(GLOBAL const Parameters *parameters, const contact_setup *s, const old_impulses *old,
+                          real radius)
 {
-  tangents t = tangents_of(normal);
+  tangents t = tangents_of(s->normal);
   real kept = choose(old->is_cached, (real)parameters->warm_start_scale, (real)R(0.0));
-  return make_vec4(kept * dot3(xyz(old->friction), t.first), kept * dot3(xyz(old->friction), t.second),
-                   kept * old->friction.w, radius);
+  mask smooth = (s->between.static_friction == R(0.0)) & (s->between.dynamic_friction == R(0.0));
+  return make_vec4(positive_zero(smooth, kept * dot3(xyz(old->friction), t.first)),
+                   positive_zero(smooth, kept * dot3(xyz(old->friction), t.second)),
+                   positive_zero(smooth, kept * old->friction.w), radius);
 }
 
 SHARED void prepare_friction(GLOBAL const Parameters *parameters, const contact_setup *s, const old_impulses *old,
@@ -397,7 +405,8 @@ SHARED void prepare_friction(GLOBAL const Parameters *parameters, const contact_
                extend(add(center_a, s->arms_back.a), friction_mass(s->bodies, center_a, center_b, s->normal)));
   store_float4(constraints.center, planes.stride + i,
                extend(add(center_b, s->arms_back.b), twist_mass(s->bodies, s->normal)));
-  store_float4(constraints.friction_impulse, i, kept_friction(parameters, old, s->normal, patch.radius));
+  if (HAS_FEATURE(parameters, FRICTION))
+    store_float4(constraints.friction_impulse, i, kept_friction(parameters, s, old, patch.radius));
 }
 
 SHARED void prepare_contacts_item(GLOBAL const Parameters *parameters, GLOBAL const float4 *material,
@@ -410,7 +419,7 @@ SHARED void prepare_contacts_item(GLOBAL const Parameters *parameters, GLOBAL co
   point_planes planes = planes_of(counts);
   uint_lanes pair = load_uint(sort_value, i);
   contact_setup s = begin_setup(parameters, material, touching_bodies, part_pairs, manifolds, pair);
-  old_impulses old = load_old_impulses(cached_contacts, load_uint(pair_cached, pair));
+  old_impulses old = load_old_impulses(parameters, cached_contacts, load_uint(pair_cached, pair));
   points_setup points;
   points.deepest = R(0.0);
   points.near = s.bodies.a == s.bodies.b; /* none yet */

@@ -103,7 +103,8 @@ SHARED contact_forces forces_of(GLOBAL const Parameters *parameters, read_patche
     f.impulse[k] = maximum(component(old, (uint_lanes)k) - component(penalty, (uint_lanes)k) * f.violation[k], R(0.0));
   }
   friction_forces(&f, c, shift, load_float4(patches.center, i), load_float4(patches.center, planes.stride + i),
-                  load_float4(constraint_penalty, i * 2u + 1u), load_float4(constraint_friction_impulse, i),
+                  load_float4(constraint_penalty, i * 2u + 1u),
+                  load_friction(parameters, constraint_friction_impulse, i),
                   (f.impulse[0] + f.impulse[1]) + (f.impulse[2] + f.impulse[3]));
   return f;
 }
@@ -129,12 +130,12 @@ SHARED real kept_penalty(real mass, real old)
 }
 
 /* The penalties of the same features in the last step; a pair that did not touch then has none. */
-SHARED void avbd_prepare_item(GLOBAL const uint *constraint_pair, GLOBAL const uint *pair_cached,
-                              GLOBAL const uint *manifold_feature, GLOBAL const uint *cached_color,
-                              GLOBAL const uint *cached_feature, GLOBAL const float4 *cached_penalty,
-                              read_patches patches, GLOBAL const uint *counts, GLOBAL float4 *constraint_normal_impulse,
-                              GLOBAL float4 *constraint_friction_impulse, GLOBAL float4 *constraint_penalty,
-                              item_index i)
+SHARED void avbd_prepare_item(GLOBAL const Parameters *parameters, GLOBAL const uint *constraint_pair,
+                              GLOBAL const uint *pair_cached, GLOBAL const uint *manifold_feature,
+                              GLOBAL const uint *cached_color, GLOBAL const uint *cached_feature,
+                              GLOBAL const float4 *cached_penalty, read_patches patches, GLOBAL const uint *counts,
+                              GLOBAL float4 *constraint_normal_impulse, GLOBAL float4 *constraint_friction_impulse,
+                              GLOBAL float4 *constraint_penalty, item_index i)
 {
   point_planes planes = planes_of(counts);
   uint_lanes pair = load_uint(constraint_pair, i), cached = load_uint(pair_cached, pair),
@@ -156,11 +157,12 @@ SHARED void avbd_prepare_item(GLOBAL const uint *constraint_pair, GLOBAL const u
                              choose(is_cached, old_friction.y, (real)R(0.0))),
                 R(0.0), R(0.0)));
   real kept = AVBD_ALPHA * AVBD_GAMMA;
-  vec4 impulse = load_float4(constraint_normal_impulse, i), friction = load_float4(constraint_friction_impulse, i);
+  vec4 impulse = load_float4(constraint_normal_impulse, i),
+       friction = load_friction(parameters, constraint_friction_impulse, i);
   store_float4(constraint_normal_impulse, i,
                make_vec4(kept * impulse.x, kept * impulse.y, kept * impulse.z, kept * impulse.w));
-  store_float4(constraint_friction_impulse, i,
-               make_vec4(kept * friction.x, kept * friction.y, kept * friction.z, friction.w));
+  store_friction(parameters, constraint_friction_impulse, i,
+                 make_vec4(kept * friction.x, kept * friction.y, kept * friction.z, friction.w));
 }
 
 SHARED real grown_penalty(real penalty, real mass, real violation, mask holds)
@@ -193,7 +195,8 @@ SHARED void avbd_duals_item(GLOBAL const Parameters *parameters, read_contacts c
                          R(0.0), R(0.0)));
   vec4 normal_impulses = make_vec4(f.impulse[0], f.impulse[1], f.impulse[2], f.impulse[3]);
   store_float4(duals.normal, i, normal_impulses);
-  store_float4(duals.friction, i, make_vec4(f.first, f.second, f.twist, load_float4(duals.friction, i).w));
+  store_friction(parameters, duals.friction, i,
+                 make_vec4(f.first, f.second, f.twist, load_friction(parameters, duals.friction, i).w));
   if (HAS_FEATURE(parameters, RESTITUTION))
     store_float4(constraint_restitution, planes.stride + i,
                  highest_impulses(load_float4(constraint_restitution, planes.stride + i), normal_impulses));

@@ -12,6 +12,7 @@
 #ifndef TANDEM_SHARED_SOLVE_CONTACT_H
 #define TANDEM_SHARED_SOLVE_CONTACT_H
 
+#include "shared/friction_rows.h"
 #include "shared/setup/contact.h"
 #include "shared/solve/pass.h"
 
@@ -154,7 +155,7 @@ SHARED wrench wrench_of(contact c, normal_rows s, vec3 center_a, vec3 center_b, 
 }
 
 /* Applies the impulses of the last step in the first substep. Later substeps find theirs in warm_start_impulse. */
-SHARED void warm_start_item(read_contacts contacts, read_patches patches,
+SHARED void warm_start_item(GLOBAL const Parameters *parameters, read_contacts contacts, read_patches patches,
                             GLOBAL const float4 *constraint_normal_impulse,
                             GLOBAL const float4 *constraint_friction_impulse, GLOBAL const float4 *solver_inertia,
                             GLOBAL const float4 *solver_delta_pose, GLOBAL const uint *counts,
@@ -166,7 +167,7 @@ SHARED void warm_start_item(read_contacts contacts, read_patches patches,
   normal_rows s = load_normal_rows(patches.points, planes, c, shift, load_float4(constraint_normal_impulse, i), i);
   vec3 center_a = add(xyz(load_float4(patches.center, i)), shift.a),
        center_b = add(xyz(load_float4(patches.center, planes.stride + i)), shift.b);
-  wrench w = wrench_of(c, s, center_a, center_b, load_float4(constraint_friction_impulse, i));
+  wrench w = wrench_of(c, s, center_a, center_b, load_friction(parameters, constraint_friction_impulse, i));
   store_contact_velocities(solver_velocity,
                            apply_impulse(c, w.impulse, w.angular_impulse_a, w.angular_impulse_b, R(1.0)));
 }
@@ -407,8 +408,9 @@ SHARED void settle_impact(GLOBAL const Parameters *parameters, read_contacts con
   vec3 center_a = add(xyz(load_float4(patches.center, i)), shift.a),
        center_b = add(xyz(load_float4(patches.center, planes.stride + i)), shift.b);
   if (pass == PASS_RELAXING)
-    add_warm_start_impulse_if(at_impact, warm_start_impulse, c,
-                              wrench_of(c, s, center_a, center_b, load_float4(contact_impulses.friction, i)));
+    add_warm_start_impulse_if(
+        at_impact, warm_start_impulse, c,
+        wrench_of(c, s, center_a, center_b, load_friction(parameters, contact_impulses.friction, i)));
 }
 
 SHARED void solve_contacts_item(GLOBAL const Parameters *parameters, read_contacts contacts, read_patches patches,
@@ -420,7 +422,8 @@ SHARED void solve_contacts_item(GLOBAL const Parameters *parameters, read_contac
   point_planes planes = planes_of(counts);
   uint biased = pass == PASS_BIASED ? 1u : 0u;
   contact c = load_contact(contacts, solver_velocity, solver_inertia, i);
-  vec4 impulses = load_float4(contact_impulses.normal, i), friction = load_float4(contact_impulses.friction, i);
+  vec4 impulses = load_float4(contact_impulses.normal, i),
+       friction = load_friction(parameters, contact_impulses.friction, i);
   vec4 center_a = load_float4(patches.center, i), center_b = load_float4(patches.center, planes.stride + i);
   delta_pose moved = load_delta_pose(solver_delta_pose, c);
   arm_shift shift = shift_of_contact(c, moved.translation);

@@ -106,7 +106,7 @@ SHARED wrench friction_wrench(vec3 normal, vec3 center_a, vec3 center_b, real fi
   return w;
 }
 
-SHARED void split_warm_start_item(read_contacts contacts, read_patches patches,
+SHARED void split_warm_start_item(GLOBAL const Parameters *parameters, read_contacts contacts, read_patches patches,
                                   GLOBAL const float4 *constraint_normal_impulse,
                                   GLOBAL const float4 *constraint_friction_impulse, read_solver_bodies solver_bodies,
                                   GLOBAL const uint *counts, GLOBAL float4 *split_impulse, item_index i)
@@ -117,7 +117,7 @@ SHARED void split_warm_start_item(read_contacts contacts, read_patches patches,
   normal_rows s = load_normal_rows(patches.points, planes, c, shift, load_float4(constraint_normal_impulse, i), i);
   vec3 center_a = add(xyz(load_float4(patches.center, i)), shift.a),
        center_b = add(xyz(load_float4(patches.center, planes.stride + i)), shift.b);
-  wrench w = wrench_of(c, s, center_a, center_b, load_float4(constraint_friction_impulse, i));
+  wrench w = wrench_of(c, s, center_a, center_b, load_friction(parameters, constraint_friction_impulse, i));
   store_wrench(split_impulse, planes.stride, i, w);
 }
 

@@ -27,16 +27,16 @@ enum { NNCG_SUM_BEFORE, NNCG_BETA };
 #define NNCG_LEAST R(1e-30)
 
 /* Before the first pass there is neither a change nor a direction. */
-SHARED void nncg_begin_item(GLOBAL const float4 *constraint_normal_impulse,
+SHARED void nncg_begin_item(GLOBAL const Parameters *parameters, GLOBAL const float4 *constraint_normal_impulse,
                             GLOBAL const float4 *constraint_friction_impulse, GLOBAL const uint *counts,
                             GLOBAL float4 *nncg_impulse, GLOBAL float4 *nncg_direction, item_index i)
 {
   uint stride = counts[CAPACITY_PAIRS];
   vec4 zero = make_vec4(R(0.0), R(0.0), R(0.0), R(0.0));
   store_float4(nncg_impulse, i, load_float4(constraint_normal_impulse, i));
-  store_float4(nncg_impulse, stride + i, load_float4(constraint_friction_impulse, i));
   store_float4(nncg_direction, i, zero);
-  store_float4(nncg_direction, stride + i, zero);
+  store_friction(parameters, nncg_impulse, stride + i, load_friction(parameters, constraint_friction_impulse, i));
+  store_friction(parameters, nncg_direction, stride + i, zero);
 }
 
 SHARED real energy_of(real change, real mass)
@@ -46,14 +46,15 @@ SHARED real energy_of(real change, real mass)
 }
 
 /* Computes, after a pass, the square of its change at this manifold. */
-SHARED void nncg_change_item(GLOBAL const float4 *constraint_points, GLOBAL const float4 *constraint_center,
-                             GLOBAL const float4 *constraint_normal_impulse,
+SHARED void nncg_change_item(GLOBAL const Parameters *parameters, GLOBAL const float4 *constraint_points,
+                             GLOBAL const float4 *constraint_center, GLOBAL const float4 *constraint_normal_impulse,
                              GLOBAL const float4 *constraint_friction_impulse, GLOBAL const float4 *nncg_impulse,
                              GLOBAL const uint *counts, GLOBAL memory_real *nncg_square, item_index i)
 {
   uint stride = counts[CAPACITY_PAIRS];
   vec4 normal_impulses = load_float4(constraint_normal_impulse, i), old = load_float4(nncg_impulse, i);
-  vec4 friction = load_float4(constraint_friction_impulse, i), old_friction = load_float4(nncg_impulse, stride + i);
+  vec4 friction = load_friction(parameters, constraint_friction_impulse, i),
+       old_friction = load_friction(parameters, nncg_impulse, stride + i);
   real slide_mass = load_float4(constraint_center, i).w, twist_mass = load_float4(constraint_center, stride + i).w;
   real sum = energy_of(friction.x - old_friction.x, slide_mass) + energy_of(friction.y - old_friction.y, slide_mass) +
              energy_of(friction.z - old_friction.z, twist_mass);
@@ -82,27 +83,28 @@ SHARED vec4 change_between(vec4 before, vec4 now)
 }
 
 /* Continues along the direction, for impulses and velocities alike. The twist radius, w of friction, never changes. */
-SHARED void nncg_advance_item(read_contacts contacts, read_patches patches, GLOBAL const float4 *solver_inertia,
-                              GLOBAL const float4 *solver_delta_pose, GLOBAL const memory_real *nncg_state,
-                              GLOBAL const uint *counts, GLOBAL float4 *constraint_normal_impulse,
-                              GLOBAL float4 *constraint_friction_impulse, GLOBAL float4 *nncg_impulse,
-                              GLOBAL float4 *nncg_direction, GLOBAL float4 *solver_velocity, item_index i)
+SHARED void nncg_advance_item(GLOBAL const Parameters *parameters, read_contacts contacts, read_patches patches,
+                              GLOBAL const float4 *solver_inertia, GLOBAL const float4 *solver_delta_pose,
+                              GLOBAL const memory_real *nncg_state, GLOBAL const uint *counts,
+                              GLOBAL float4 *constraint_normal_impulse, GLOBAL float4 *constraint_friction_impulse,
+                              GLOBAL float4 *nncg_impulse, GLOBAL float4 *nncg_direction,
+                              GLOBAL float4 *solver_velocity, item_index i)
 {
   uint stride = counts[CAPACITY_PAIRS];
   real beta = nncg_state[NNCG_BETA];
   vec4 normal_impulses = load_float4(constraint_normal_impulse, i),
-       friction = load_float4(constraint_friction_impulse, i);
+       friction = load_friction(parameters, constraint_friction_impulse, i);
   vec4 normal_step = scale4(load_float4(nncg_direction, i), beta),
-       friction_step = scale4(load_float4(nncg_direction, stride + i), beta);
+       friction_step = scale4(load_friction(parameters, nncg_direction, stride + i), beta);
   store_float4(nncg_direction, i, add4(normal_step, change_between(load_float4(nncg_impulse, i), normal_impulses)));
-  store_float4(nncg_direction, stride + i,
-               add4(friction_step, change_between(load_float4(nncg_impulse, stride + i), friction)));
+  store_friction(parameters, nncg_direction, stride + i,
+                 add4(friction_step, change_between(load_friction(parameters, nncg_impulse, stride + i), friction)));
   normal_impulses = add4(normal_impulses, normal_step);
   friction = add4(friction, friction_step);
   store_float4(nncg_impulse, i, normal_impulses);
-  store_float4(nncg_impulse, stride + i, friction);
+  store_friction(parameters, nncg_impulse, stride + i, friction);
   store_float4(constraint_normal_impulse, i, normal_impulses);
-  store_float4(constraint_friction_impulse, i, friction);
+  store_friction(parameters, constraint_friction_impulse, i, friction);
 
   contact c = load_contact(contacts, solver_velocity, solver_inertia, i);
   arm_shift shift = load_arm_shift(solver_delta_pose, c);

@@ -124,11 +124,12 @@ SHARED void xpbd_positions_item(GLOBAL const Parameters *parameters, read_contac
 {
   point_planes planes = planes_of(counts);
   contact c = load_contact(contacts, solver_velocity, solver_inertia, i);
-  vec4 impulses = load_float4(contact_impulses.normal, i), friction = load_float4(contact_impulses.friction, i);
+  vec4 impulses = load_float4(contact_impulses.normal, i),
+       friction = load_friction(parameters, contact_impulses.friction, i);
   if (first_iteration != 0u) {
     impulses = make_vec4(R(0.0), R(0.0), R(0.0), R(0.0));
     friction = make_vec4(R(0.0), R(0.0), R(0.0), friction.w);
-    store_float4(contact_impulses.friction, i, friction);
+    store_friction(parameters, contact_impulses.friction, i, friction);
   }
   delta_pose moved = load_delta_pose(solver_delta_pose, c);
   arm_shift shift = shift_of_contact(c, moved.translation);

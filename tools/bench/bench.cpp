@@ -15,6 +15,7 @@
 #include "tools/bench/bodies.h"
 #include "tools/bench/broadphase.h"
 #include "tools/bench/floors.h"
+#include "tools/bench/left_out.h"
 #include "tools/bench/narrowphase.h"
 #include "tools/bench/primitives.h"
 #include "tools/bench/rays.h"
@@ -213,7 +214,7 @@ int execute_worlds(const BenchOptions &options)
 /* The command line that repeats the run, for the page that gets its table. */
 std::string scenes_command_text(const BenchOptions &options)
 {
-  std::string text = fmt::format("tandem bench scenes --on {}", options.on);
+  std::string text = fmt::format("tandem bench {} --on {}", options.what, options.on);
   if (!options.scenes.empty()) text += fmt::format(" --scene {}", fmt::join(options.scenes, ","));
   if (!options.steps.empty()) text += " --steps " + options.steps;
   return text + " --table-in " + options.table;
@@ -247,6 +248,29 @@ int execute_scenes(const BenchOptions &options)
                       {"kernels", kernel_count},
                       {"scenes", scenes_json(costs)}});
   const std::vector<std::string> failures = failures_of(costs);
+  for (const std::string &line : failures) fmt::print(stderr, "tandem: {}\n", line);
+  return failures.empty() ? 0 : 1;
+}
+
+/* The exit status is 1 if a row has no costs. */
+int execute_left_out(const BenchOptions &options)
+{
+  const ScenesRequest request = scenes_request(options);
+  const MarkedTable table{options.table, "left-out " + options.on};
+  DistinctFiles files;
+  options.json.check(files);
+  table.check(files);
+  const std::vector<LeftOut> rows = bench_left_out(request);
+  if (!options.json.takes_standard_output())
+    fmt::print("left out on {}: {} steps after {}, launches by their median, times by their least\n{}", options.on,
+               request.steps, scene_warm_steps, left_out_text(rows));
+  table.write(fmt::format("```\n{}\n```\n{}", scenes_command_text(options), left_out_markdown(rows)));
+  options.json.write({{"what", options.what},
+                      {"backend", options.on},
+                      {"steps", request.steps},
+                      {"features", scene_feature_names()},
+                      {"rows", left_out_json(rows)}});
+  const std::vector<std::string> failures = failures_of(rows);
   for (const std::string &line : failures) fmt::print(stderr, "tandem: {}\n", line);
   return failures.empty() ? 0 : 1;
 }
@@ -343,7 +367,7 @@ Json result_json(const BenchOptions &options, const Result &result)
 }
 
 constexpr const char *benchmarks = "sort, scan, broadphase, batching, narrowphase, rays, support, snapshots, "
-                                   "sleeping, bodies, worlds, scenes, floors, sizes or step";
+                                   "sleeping, bodies, worlds, scenes, left-out, floors, sizes or step";
 
 /* Throws InputError for options of one benchmark that are given to another. */
 void check_options(const BenchOptions &options)
@@ -357,13 +381,14 @@ void check_options(const BenchOptions &options)
   only_of("--broadphase", !options.broadphases.empty(), {"broadphase"});
   only_of("--chart", !options.chart.empty(), {"broadphase", "sizes"});
   only_of("--beside", !options.beside.empty(), {"sizes"});
-  only_of("--scene", !options.scenes.empty(), {"broadphase", "scenes", "floors"});
-  only_of("--steps", !options.steps.empty(), {"scenes"});
-  only_of("--table-in", !options.table.empty(), {"scenes", "floors"});
+  only_of("--scene", !options.scenes.empty(), {"broadphase", "scenes", "left-out", "floors"});
+  only_of("--steps", !options.steps.empty(), {"scenes", "left-out"});
+  only_of("--table-in", !options.table.empty(), {"scenes", "left-out", "floors"});
   if (options.what == "floors" && !options.count.empty())
     throw InputError("--n: bench floors takes the size from --scene, as --scene spheres:n=1000; leave it out");
-  if (options.what == "scenes" && !options.count.empty())
-    throw InputError("--n: the scenes of bench scenes have the numbers of bodies of `tandem scenes`; leave it out");
+  if ((options.what == "scenes" || options.what == "left-out") && !options.count.empty())
+    throw InputError(fmt::format(
+        "--n: the scenes of bench {} have the numbers of bodies of `tandem scenes`; leave it out", options.what));
 }
 
 int execute(const BenchOptions &options)
@@ -379,6 +404,7 @@ int execute(const BenchOptions &options)
   if (options.what == "bodies") return execute_bodies(options);
   if (options.what == "worlds") return execute_worlds(options);
   if (options.what == "scenes") return execute_scenes(options);
+  if (options.what == "left-out") return execute_left_out(options);
   if (options.what == "floors") return execute_floors(options);
   if (options.what == "sizes") return execute_sizes(options);
   const bool step = options.what == "step";
@@ -398,8 +424,9 @@ int execute(const BenchOptions &options)
 Command bench_command(CLI::App &parser)
 {
   CLI::App *command = parser.add_subcommand(
-      "bench", "time one part by itself: sort, scan, broadphase, batching, "
-               "narrowphase, rays, support, snapshots, sleeping, bodies, worlds, scenes, floors, sizes, step");
+      "bench",
+      "time one part by itself: sort, scan, broadphase, batching, "
+      "narrowphase, rays, support, snapshots, sleeping, bodies, worlds, scenes, left-out, floors, sizes, step");
   auto options = std::make_shared<BenchOptions>();
   command
       ->add_option(
@@ -409,7 +436,8 @@ Command bench_command(CLI::App &parser)
           "boxes), support (farthest vertices of hulls), snapshots (states kept on the device, and saved to "
           "the host), sleeping (one island awake among bodies that sleep), bodies (that come and go, and "
           "one that is read), worlds (many small ones in a batch, and one after another), scenes (what every "
-          "built-in scene takes: kernels, launches, memory, time), floors (bytes that each stage must "
+          "built-in scene takes: kernels, launches, memory, time), left-out (what a scene saves by each feature that "
+          "it lacks), floors (bytes that each stage must "
           "move, and how long a copy of them takes), sizes (box-grid from 8 boxes to millions), step (box-grid)")
       ->required()
       ->type_name("");
@@ -430,18 +458,19 @@ Command bench_command(CLI::App &parser)
       ->type_name("NAME,...");
   command
       ->add_option("--scene", options->scenes,
-                   "broadphase: these inputs alone, as spheres,pile; scenes: these built-in scenes alone; floors: "
-                   "one scene with its parameters")
+                   "broadphase: these inputs alone, as spheres,pile; scenes, left-out: these built-in scenes "
+                   "alone; floors: one scene with its parameters")
       ->delimiter(',')
       ->type_name("NAME,...");
   command
       ->add_option("--steps", options->steps,
-                   fmt::format("scenes: how many steps are timed, after {} of warm-up; {} unless given",
+                   fmt::format("scenes, left-out: how many steps are timed, after {} of warm-up; {} unless given",
                                scene_warm_steps, scene_timed_steps))
       ->type_name("N");
   command
       ->add_option("--table-in", options->table,
-                   "scenes, floors: write the table between the marks of this Markdown page, which name the backend")
+                   "scenes, left-out, floors: write the table between the marks of this Markdown page, which name the "
+                   "backend")
       ->type_name("FILE.md");
   command
       ->add_option("--chart", options->chart,

@@ -427,6 +427,7 @@ public:
 
 private:
   friend class Worlds; /* <tandem/worlds.h>: a batch of worlds is one of these, whose bodies are those of all */
+  friend std::unique_ptr<World> world_with_features(const Scene &, const Settings &, const Placement &, Features);
   struct Implementation;
   explicit World(std::unique_ptr<Implementation> implementation);
   std::unique_ptr<Implementation> implementation_;

@@ -94,7 +94,7 @@ struct Rows {
     read_points(memory, counts[CAPACITY_POINTS]);
     read_planes(memory, Buffer::constraint_center, 2, count, stride, center);
     read_planes(memory, Buffer::constraint_normal_impulse, 1, count, stride, normal_impulse);
-    read_planes(memory, Buffer::constraint_friction_impulse, 1, count, stride, friction_impulse);
+    read_friction(memory);
     const size_t body_rows = 2 * size_t{counts[COUNT_BODIES]};
     read_planes(memory, Buffer::solver_velocity, 1, body_rows, body_rows, velocity);
     read_planes(memory, Buffer::solver_inertia, 1, body_rows, body_rows, inertia);
@@ -116,7 +116,16 @@ struct Rows {
     std::fill(arms_of_b + count, points.end(), float4{});
   }
 
+  /* A scene without friction has no rows: shared/friction_rows.h. */
+  void read_friction(Memory &memory)
+  {
+    if (rubs()) return read_planes(memory, Buffer::constraint_friction_impulse, 1, count, stride, friction_impulse);
+    make_room(friction_impulse, stride);
+    friction_impulse.assign(count, float4{});
+  }
+
   bool bounces() const { return HAS_FEATURE(&parameters, RESTITUTION); }
+  bool rubs() const { return HAS_FEATURE(&parameters, FRICTION); }
   uint32_t bodies() const { return static_cast<uint32_t>(velocity.size() / 2); }
   bool moves(uint32_t body) const { return velocity[2 * body].w > 0; }
   double locks(uint32_t body) const { return inertia[2 * body + 1].z; }
@@ -125,7 +134,7 @@ struct Rows {
   void write(Memory &memory) const
   {
     write_rows(memory, Buffer::constraint_normal_impulse, normal_impulse.data(), count);
-    write_rows(memory, Buffer::constraint_friction_impulse, friction_impulse.data(), count);
+    if (rubs()) write_rows(memory, Buffer::constraint_friction_impulse, friction_impulse.data(), count);
     write_rows(memory, Buffer::solver_velocity, velocity.data(), velocity.size());
     if (bounces()) write_rows(memory, Buffer::constraint_restitution, restitution.data() + count, count, stride);
   }

@@ -27,7 +27,7 @@ void launch_xpbd_substep(StepLaunches &step, uint32_t substep)
 
 void launch_xpbd(StepLaunches &step)
 {
-  step.run(Kernel::xpbd_prepare);
+  if (step.has(FEATURE_FRICTION)) step.run(Kernel::xpbd_prepare);
   for (uint32_t substep = 0; substep < step.settings().substeps; ++substep) launch_xpbd_substep(step, substep);
   if (!step.has(FEATURE_RESTITUTION)) return;
   MassSplit overflow = MassSplit::overflow_of(step);
@@ -37,6 +37,7 @@ void launch_xpbd(StepLaunches &step)
 
 void commit_xpbd(StepLaunches &step)
 {
+  if (!step.has(FEATURE_FRICTION)) return;
   step.run(Kernel::clear_cached, {1}, {Buffer::cached_slip});
   step.run(Kernel::xpbd_cache);
 }
