@@ -112,6 +112,21 @@ Features support_features(Features features, const Settings &settings)
   return 0;
 }
 
+/* Other solvers have kernels that every scene may need: overflow constraints are solved as `jacobi` solves all. */
+Features solver_features(Solver solver)
+{
+  switch (solver) {
+  case Solver::pgs: return FEATURE_PGS;
+  case Solver::nncg: return FEATURE_PGS | FEATURE_NNCG;
+  case Solver::xpbd: return FEATURE_XPBD;
+  case Solver::avbd: return FEATURE_AVBD;
+  case Solver::soft_step:
+  case Solver::jacobi:
+  case Solver::direct: break;
+  }
+  return 0;
+}
+
 /* The features of all kinds of pairs that shapes of the scene can make. */
 Features pair_features(const Presence &present)
 {
@@ -341,7 +356,8 @@ Features features_of(const Scene &scene, const Settings &settings)
   const Features pairs = pair_features(presence_of(scene));
   Features features =
       pairs | list_features(pairs) | point_features(pairs) | convex_features(scene) | body_features(scene);
-  features |= narrowphase_features(scene, features, settings) | support_features(features, settings);
+  features |= narrowphase_features(scene, features, settings) | support_features(features, settings) |
+              solver_features(settings.solver);
   if (settings.events) features |= FEATURE_EVENTS;
   return features;
 }
