@@ -7,6 +7,7 @@
 
 #include <tandem/settings.h>
 
+#include "host/runtime/interface/built_features.h"
 #include "host/runtime/interface/features.h"
 #include "host/runtime/interface/pair_tests.h"
 #include "host/scene/shape_bounds.h"
@@ -331,12 +332,7 @@ uint32_t locks_of(const Body &body)
   return is_dynamic(body) ? bits(body.linear_locks) | bits(body.angular_locks) << LOCK_ANGULAR_SHIFT : 0u;
 }
 
-Features all_features()
-{
-  Features all = 0;
-  for (int index = 0; index < FEATURE_COUNT; ++index) all |= feature_of_index(index);
-  return all & ~FEATURE_WORLDS;
-}
+Features all_features() { return built_features() & ~FEATURE_WORLDS; }
 
 bool is_large(const Scene &scene, const Body &body, float median)
 {
