@@ -1,4 +1,5 @@
-# embed_kernels(target): compiles cl/*.cl, with every include and entry written out, into the target.
+# embed_kernels(target [feature...]): compiles cl/*.cl, with every include and entry written out, into the target; the
+# kernels of these features are left out.
 set(TANDEM_EMBEDDER_FROM "" CACHE PATH "Build folder of this source whose embed_kernels does for this tree, too")
 if(TANDEM_EMBEDDER_FROM)
   add_executable(embed_kernels IMPORTED GLOBAL)
@@ -11,15 +12,21 @@ else()
 endif()
 
 function(embed_kernels target)
-  file(GLOB programs CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} cl/*.cl)
-  file(GLOB_RECURSE included CONFIGURE_DEPENDS shared/*.h shared/*.def cl/*.h)
-  list(TRANSFORM programs PREPEND ${PROJECT_SOURCE_DIR}/ OUTPUT_VARIABLE program_files)
-  set(folder ${CMAKE_BINARY_DIR}/generated)
+  set(source ${PROJECT_SOURCE_DIR})
+  file(GLOB programs CONFIGURE_DEPENDS RELATIVE ${source} ${source}/cl/*.cl)
+  file(GLOB_RECURSE included CONFIGURE_DEPENDS ${source}/shared/*.h ${source}/shared/*.def ${source}/cl/*.h)
+  list(TRANSFORM programs PREPEND ${source}/ OUTPUT_VARIABLE program_files)
+  set(folder ${CMAKE_CURRENT_BINARY_DIR}/generated)
   set(generated ${folder}/embedded_kernels.cpp)
+  set(without)
+  if(ARGN)
+    list(JOIN ARGN "," names)
+    set(without --without ${names})
+  endif()
   add_custom_command(
     OUTPUT ${generated}
     COMMAND ${CMAKE_COMMAND} -E make_directory ${folder}
-    COMMAND embed_kernels ${PROJECT_SOURCE_DIR} ${folder} ${programs}
+    COMMAND embed_kernels ${source} ${folder} ${without} ${programs}
     DEPENDS embed_kernels ${program_files} ${included}
     COMMENT "Embedding OpenCL kernels"
     VERBATIM)

@@ -11,10 +11,12 @@
 #include <optional>
 #include <utility>
 
+#include <fmt/format.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include "host/runtime/interface/built_features.h"
 #include "host/runtime/interface/debug.h"
 #include "host/runtime/interface/faults.h"
 #include <tandem/error.h>
@@ -139,7 +141,14 @@ public:
 
   const std::string &name() const override { return name_; }
   Storage &storage() override { return storage_; }
-  void prepare(Features, const std::vector<Kernel> &) override {}
+  /* A world has been refused before; tools launch kernels without one. */
+  void prepare(Features, const std::vector<Kernel> &kernels) override
+  {
+    for (const Kernel kernel : kernels)
+      if (row_of(kernel).execution != Execution::host && !scalar_.at(index_of(kernel)))
+        throw InputError(fmt::format("{}: this library is built without the kernel {} (-DTANDEM_FEATURES=\"{}\")",
+                                     name_, row_of(kernel).name, built_option()));
+  }
   void finish() override {}
   void set_profiling(bool on) override { profiling_ = on; }
   std::vector<Time> take_kernel_times() override { return std::exchange(times_, std::vector<Time>(times_.size())); }

@@ -23,7 +23,7 @@ SHARED point_planes planes_of(GLOBAL const uint *counts)
 #ifdef FEATURES
   point_planes planes = {counts[CAPACITY_PAIRS], MAY_OCCUR(SEVERAL_POINTS) ? 4u : 1u};
 #else
-  point_planes planes = {counts[CAPACITY_PAIRS], counts[CAPACITY_POINTS]};
+  point_planes planes = {counts[CAPACITY_PAIRS], MAY_OCCUR(SEVERAL_POINTS) ? counts[CAPACITY_POINTS] : 1u};
 #endif
   return planes;
 }

@@ -7,6 +7,7 @@
 
 #include <tandem/settings.h>
 
+#include "host/runtime/interface/built_features.h"
 #include "host/runtime/interface/features.h"
 #include "host/runtime/interface/pair_tests.h"
 #include "host/scene/shape_bounds.h"
@@ -108,6 +109,21 @@ Features support_features(Features features, const Settings &settings)
   case Support::hill_climbing: return FEATURE_HILL_CLIMBING;
   case Support::cube_map: return FEATURE_CUBE_MAP;
   case Support::brute_force: break;
+  }
+  return 0;
+}
+
+/* Other solvers have kernels that every scene may need: overflow constraints are solved as `jacobi` solves all. */
+Features solver_features(Solver solver)
+{
+  switch (solver) {
+  case Solver::pgs: return FEATURE_PGS;
+  case Solver::nncg: return FEATURE_PGS | FEATURE_NNCG;
+  case Solver::xpbd: return FEATURE_XPBD;
+  case Solver::avbd: return FEATURE_AVBD;
+  case Solver::soft_step:
+  case Solver::jacobi:
+  case Solver::direct: break;
   }
   return 0;
 }
@@ -316,12 +332,7 @@ uint32_t locks_of(const Body &body)
   return is_dynamic(body) ? bits(body.linear_locks) | bits(body.angular_locks) << LOCK_ANGULAR_SHIFT : 0u;
 }
 
-Features all_features()
-{
-  Features all = 0;
-  for (int index = 0; index < FEATURE_COUNT; ++index) all |= feature_of_index(index);
-  return all & ~FEATURE_WORLDS;
-}
+Features all_features() { return built_features() & ~FEATURE_WORLDS; }
 
 bool is_large(const Scene &scene, const Body &body, float median)
 {
@@ -341,7 +352,8 @@ Features features_of(const Scene &scene, const Settings &settings)
   const Features pairs = pair_features(presence_of(scene));
   Features features =
       pairs | list_features(pairs) | point_features(pairs) | convex_features(scene) | body_features(scene);
-  features |= narrowphase_features(scene, features, settings) | support_features(features, settings);
+  features |= narrowphase_features(scene, features, settings) | support_features(features, settings) |
+              solver_features(settings.solver);
   if (settings.events) features |= FEATURE_EVENTS;
   if (settings.solver == Solver::soft_step) features |= FEATURE_SUBSTEP_WARM_START;
   return features;

@@ -56,7 +56,7 @@ BodyKind kind_of(const Scene &scene, const Body &body);
 /* True for a body that is large beside others of this median radius, or whose bounds are. */
 bool is_large(const Scene &scene, const Body &body, float median);
 
-/* All features that a world alone could need, for comparing builds. */
+/* All features of this library that a world alone could need, for comparing builds. */
 Features all_features();
 
 /* The median of bounding_radius over the bodies of finite size; 0 if there are none. */

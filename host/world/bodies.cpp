@@ -23,6 +23,7 @@
 #include "host/pipeline/setting_rows.h"
 #include "host/runtime/interface/floating_point.h"
 #include "host/runtime/interface/module.h"
+#include "host/scene/built.h"
 #include "host/world/contact_events.h"
 #include "host/world/implementation.h"
 #include "host/world/placed_bodies.h"
@@ -368,6 +369,7 @@ std::vector<uint32_t> order_with(const Specialisation &special, const std::array
 void World::Implementation::plan_layout(const Arrival &arrival, std::vector<uint32_t> order)
 {
   const Features needed = scene_features | features_of(scene, settings);
+  check_built(needed, scene, settings, scene.name);
   special.unbounded += static_cast<uint32_t>(arrival.appended[0].size());
   special.large += static_cast<uint32_t>(arrival.appended[0].size() + arrival.appended[1].size());
   special.median = arrival.median;

@@ -12,6 +12,7 @@
 #include "host/pipeline/setting_rows.h"
 #include "host/runtime/interface/module.h"
 #include "host/runtime/recorder.h"
+#include "host/scene/built.h"
 #include "host/scene/parameters.h"
 #include "host/world/forced_features.h"
 #include "shared/batching/limits.h"
@@ -54,6 +55,7 @@ World::Implementation::Implementation(Beginning beginning, const Placement &plac
       buffers(memory, backends), slots(std::move(beginning.slots)),
       launcher(memory, [this](Kernel kernel) -> Backend & { return backends.of(kernel); }), parts(memory)
 {
+  check_built(scene_features, scene, settings, scene.name);
   launcher.set_on_commit([this] { turn(); });
   plan.forces = beginning.forces || module_applies_forces();
   plan.sleeping = settings.sleeping;

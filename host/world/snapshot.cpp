@@ -60,17 +60,11 @@ template <Is<BodySlots::Free> T, class Visit> auto visit_fields(T &record, const
 namespace {
 
 /* By name, because the bits of features have other places in other versions. */
-constexpr const char *feature_names[] = {
-#define FEATURE(name, what) #name,
-#include "shared/features.def"
-#undef FEATURE
-};
-
 std::vector<std::string> names_of(Features features)
 {
   std::vector<std::string> names;
   for (int index = 0; index < FEATURE_COUNT; ++index)
-    if (features & feature_of_index(index)) names.emplace_back(feature_names[index]);
+    if (features & feature_of_index(index)) names.emplace_back(feature_rows[index].name);
   return names;
 }
 
@@ -78,9 +72,10 @@ Features get_features(ByteReader &reader)
 {
   Features features = 0;
   for (const std::string &name : reader.get<std::vector<std::string>>()) {
-    const auto known = std::find(std::begin(feature_names), std::end(feature_names), name);
-    if (known == std::end(feature_names)) reader.fail("it needs a feature that this library does not have");
-    features |= feature_of_index(static_cast<int>(known - std::begin(feature_names)));
+    const auto known = std::find_if(std::begin(feature_rows), std::end(feature_rows),
+                                    [&](const FeatureRow &row) { return row.name == name; });
+    if (known == std::end(feature_rows)) reader.fail("it needs a feature that this library does not have");
+    features |= feature_of_index(static_cast<int>(known - std::begin(feature_rows)));
   }
   return features;
 }

@@ -8,6 +8,7 @@
 
 #include "host/base/out_of_memory.h"
 #include "host/runtime/interface/floating_point.h"
+#include "host/scene/built.h"
 
 namespace tandem {
 namespace {
@@ -66,6 +67,7 @@ Worlds::Implementation::Implementation(std::span<const Scene> scenes, uint32_t c
   all.materials.clear();
   for (const Scene &scene : scenes) {
     const Features own = features_of(scene, settings);
+    check_built(own, scene, settings, scene.name);
     for (uint32_t copy = 0; copy < copies; ++copy) {
       tables.add(scene, all);
       gravity.push_back(scene.gravity);

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "host/runtime/interface/floating_point.h"
+#include "host/scene/built.h"
 #include "host/world/snapshot_scene.h"
 #include "host/world/worlds.h"
 
@@ -68,6 +69,7 @@ void Worlds::Implementation::check_loaded(uint32_t number, const SnapshotContent
   if (bytes_of(contents.settings) != bytes_of(settings))
     throw InputError("load: the snapshot is of a world with other settings; the step, its substeps and iterations, the "
                      "solver, the contacts, the narrowphase and events must be those of the batch");
+  check_built(contents.special.features, contents.scene, settings, "load");
   const std::vector<BodyStatus> &status = contents.slots.status();
   const bool has_free = std::find(status.begin(), status.end(), BodyStatus::free) != status.end();
   const Scene own = scene(number);

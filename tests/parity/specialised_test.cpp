@@ -41,6 +41,28 @@ TEST_CASE("parity on CPU: specialised and all features")
   }
 }
 
+/* So a library that leaves out the kernels of other features (cmake/Features.cmake) has all that the world launches. */
+TEST_CASE("every kernel of a world is of a feature that the world has, or of none")
+{
+  Settings settings;
+  settings.sleeping = settings.events = settings.check = true;
+  settings.bounds = Bounds::tight;
+  for (const Solver solver :
+       {Solver::soft_step, Solver::pgs, Solver::nncg, Solver::xpbd, Solver::avbd, Solver::jacobi, Solver::direct})
+    for (const Narrowphase narrowphase : {Narrowphase::gjk_epa, Narrowphase::sat_split, Narrowphase::cube_map})
+      for (const std::string &scene : small_scenes()) {
+        settings.solver = solver;
+        settings.substeps = solver == Solver::soft_step ? automatic_substeps : 2;
+        settings.narrowphase = narrowphase;
+        const World world(load_scene(scene), settings, {"serial", {}});
+        for (const Kernel kernel : world.kernels()) {
+          const Features feature = row_of(kernel).feature;
+          CAPTURE(scene, name_of(kernel), name_of(solver), name_of(narrowphase));
+          REQUIRE((feature == 0 || (feature & world.features()) != 0));
+        }
+      }
+}
+
 /* One test each, for each may have to compile a build of its own. */
 TEST_CASE("parity on OpenCL: specialised box-grid") { require_same_state_on_pocl(small_scenes()[0]); }
 TEST_CASE("parity on OpenCL: specialised falling-boxes") { require_same_state_on_pocl(small_scenes()[1]); }

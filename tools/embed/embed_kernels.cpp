@@ -11,7 +11,10 @@
  * A module of another project is one program: its lists and headers are in a folder of its own, which is searched first
  * for includes, and all its kernels are of the stage that has its name.
  *
- * Usage: embed_kernels ROOT FOLDER cl/one.cl cl/two.cl ...
+ * A library for some features alone (cmake/Features.cmake) has the entries of their kernels, and no header of a stage
+ * whose kernels are all left out.
+ *
+ * Usage: embed_kernels ROOT FOLDER [--without FEATURE,FEATURE] cl/one.cl cl/two.cl ...
  *          writes FOLDER/embedded_kernels.cpp and FOLDER/one.cl ...
  *        embed_kernels ROOT FOLDER --module NAME SOURCES KERNELS BUFFERS NAME.cl
  *          writes FOLDER/NAME_programs.cpp and FOLDER/NAME.cl; KERNELS, BUFFERS: files of the folder SOURCES
@@ -97,12 +100,33 @@ std::string text_of_file(const std::string &path)
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
+/* Where text is found, and the kernels that get an entry and those that get none. */
+struct Sources {
+  Folders folders;
+  std::vector<embed::KernelRow> kept, left_out;
+};
+
+bool defines_any(const std::string &text, const std::vector<embed::KernelRow> &rows)
+{
+  return std::any_of(rows.begin(), rows.end(), [&](const embed::KernelRow &row) {
+    return text.find(" " + row.name + (row.execution == "GROUP" ? "_group(" : "_item(")) != std::string::npos;
+  });
+}
+
+/* A header of kernels that are all left out. Every header includes what it needs, so others do without it. */
+bool is_left_out(const Sources &sources, const std::string &name)
+{
+  if (sources.left_out.empty()) return false;
+  const std::string text = text_of_file(path_of(sources.folders, name));
+  return defines_any(text, sources.left_out) && !defines_any(text, sources.kept);
+}
+
 /* What stands in a comment is neither an include nor a wish for entries. */
-void expand(const Folders &folders, const std::string &name, Program &program)
+void expand(const Sources &sources, const std::string &name, Program &program)
 {
   const bool is_list = name.ends_with(".def"); /* expanded at every include */
   if (!is_list && !program.seen.insert(name).second) return;
-  const std::string path = path_of(folders, name), text = text_of_file(path);
+  const std::string path = path_of(sources.folders, name), text = text_of_file(path);
   program.files.insert(path);
   const auto begin_piece = [&](int number) {
     program.headers.push_back("#line " + std::to_string(number) + " \"" + name + "\"\n");
@@ -118,8 +142,8 @@ void expand(const Folders &folders, const std::string &name, Program &program)
     } else if (included.empty()) {
       program.headers.back() += code + '\n';
       program.readable += line + '\n';
-    } else {
-      expand(folders, included, program);
+    } else if (!name.ends_with("/kernels.h") || !is_left_out(sources, included)) {
+      expand(sources, included, program);
       begin_piece(number + 1);
     }
   }
@@ -152,8 +176,16 @@ private:
   std::string variables_;
 };
 
+std::vector<embed::KernelRow> entries_of(const Program &program, const std::vector<embed::KernelRow> &rows)
+{
+  std::vector<embed::KernelRow> entries;
+  for (const embed::KernelRow &row : rows)
+    if (row.stage == program.stage && row.execution != "HOST") entries.push_back(row);
+  return entries;
+}
+
 /* list: the name of the rows' file in #line directives. */
-void write_program(const Program &program, const std::vector<embed::KernelRow> &rows, const std::string &list,
+void write_program(const Program &program, const std::vector<embed::KernelRow> &entries, const std::string &list,
                    const std::string &folder, Pieces &pieces, std::ostream &out)
 {
   std::ofstream readable(folder + "/" + program.name + ".cl");
@@ -161,19 +193,14 @@ void write_program(const Program &program, const std::vector<embed::KernelRow> &
   out << "{\"" << program.name << "\",\n{";
   for (const std::string &piece : program.headers) out << pieces.name_of(piece) << ",\n";
   out << "},{\n";
-  size_t entries = 0;
-  for (const embed::KernelRow &row : rows)
-    if (row.stage == program.stage && row.execution != "HOST") {
-      const std::string entry = embed::entry_of(row, list);
-      readable << '\n' << entry;
-      out << "{\"" << row.name << "\",\n"
-          << literal(entry) << ",\n"
-          << literal(embed::call_of(row)) << ",\n\"" << row.local_words << "\"},\n";
-      ++entries;
-    }
+  for (const embed::KernelRow &row : entries) {
+    const std::string entry = embed::entry_of(row, list);
+    readable << '\n' << entry;
+    out << "{\"" << row.name << "\",\n"
+        << literal(entry) << ",\n"
+        << literal(embed::call_of(row)) << ",\n\"" << row.local_words << "\"},\n";
+  }
   out << "}},\n";
-  if (!program.stage.empty() && entries == 0)
-    throw std::runtime_error(program.name + ".cl: " + list + " has no kernel of stage " + program.stage);
   if (!readable.flush()) throw std::runtime_error("cannot write " + folder + "/" + program.name + ".cl");
 }
 
@@ -184,19 +211,39 @@ struct Job {
   Folders folders;
   std::vector<std::string> programs;
   std::string name_space, function, written;
+  std::set<std::string> features_left_out;
 };
+
+std::set<std::string> split_at_commas(const std::string &text)
+{
+  std::set<std::string> words;
+  std::istringstream in(text);
+  for (std::string word; std::getline(in, word, ',');) words.insert(word);
+  return words;
+}
+
+Job job_of_pipeline(const std::string &root, const std::string &folder, std::vector<std::string> words)
+{
+  Job job{{root, root + "/shared/kernels.def", ""},
+          "shared/kernels.def",
+          {root},
+          {},
+          "tandem",
+          "embedded_programs",
+          folder + "/embedded_kernels.cpp",
+          {}};
+  if (words.front() == "--without" && words.size() > 2) {
+    job.features_left_out = split_at_commas(words[1]);
+    words.erase(words.begin(), words.begin() + 2);
+  }
+  job.programs = std::move(words);
+  return job;
+}
 
 Job job_of(const std::vector<std::string> &words)
 {
   const std::string &root = words[0], &folder = words[1];
-  if (words[2] != "--module")
-    return {{root, root + "/shared/kernels.def", ""},
-            "shared/kernels.def",
-            {root},
-            {words.begin() + 2, words.end()},
-            "tandem",
-            "embedded_programs",
-            folder + "/embedded_kernels.cpp"};
+  if (words[2] != "--module") return job_of_pipeline(root, folder, {words.begin() + 2, words.end()});
   if (words.size() != 8) throw std::runtime_error("--module takes NAME SOURCES KERNELS BUFFERS NAME.cl");
   const std::string &name = words[3], &sources = words[4];
   return {{root, sources + "/" + words[5], sources + "/" + words[6]},
@@ -205,7 +252,8 @@ Job job_of(const std::vector<std::string> &words)
           {words[7]},
           name,
           "programs",
-          folder + "/" + name + "_programs.cpp"};
+          folder + "/" + name + "_programs.cpp",
+          {}};
 }
 
 /* Checks that all rows of a module have the stage of its name. */
@@ -219,18 +267,30 @@ void check_stages(const std::vector<embed::KernelRow> &rows, const Job &job)
                                job.name_space + ", its name");
 }
 
-/* The files that the source is made of are added to `files`. */
-std::string source_of(const Job &job, const std::vector<embed::KernelRow> &rows, const std::string &folder,
-                      std::set<std::string> &files)
+Sources sources_of(const Job &job, const std::vector<embed::KernelRow> &rows)
+{
+  Sources sources{job.folders, {}, {}};
+  for (const embed::KernelRow &row : rows)
+    (job.features_left_out.contains(row.feature) ? sources.left_out : sources.kept).push_back(row);
+  return sources;
+}
+
+/* The files that the source is made of are added to `files`. A stage whose kernels are all left out has no program. */
+std::string source_of(const Job &job, const Sources &sources, const std::string &folder, std::set<std::string> &files)
 {
   Pieces pieces;
   std::ostringstream out;
   for (const std::string &path : job.programs) {
     Program program;
     program.name = std::filesystem::path(path).stem().string();
-    expand(job.folders, path, program);
-    write_program(program, rows, job.list_name, folder, pieces, out);
+    expand(sources, path, program);
     files.merge(program.files);
+    const std::vector<embed::KernelRow> entries = entries_of(program, sources.kept);
+    if (!program.stage.empty() && entries.empty()) {
+      if (!entries_of(program, sources.left_out).empty()) continue;
+      throw std::runtime_error(program.name + ".cl: " + job.list_name + " has no kernel of stage " + program.stage);
+    }
+    write_program(program, entries, job.list_name, folder, pieces, out);
   }
   const std::string result = "const std::vector<tandem::EmbeddedProgram> &" + job.function + "()";
   return "/* Generated by embed_kernels: do not edit. */\n#include \"host/runtime/interface/embedded_program.h\"\n\n"
@@ -268,15 +328,16 @@ void write_file(const std::string &path, const std::string &text)
 int main(int count, char **arguments)
 try {
   if (count < 4)
-    throw std::runtime_error("usage: embed_kernels ROOT FOLDER cl/NAME.cl ...; or ROOT FOLDER --module NAME SOURCES "
-                             "KERNELS BUFFERS NAME.cl");
+    throw std::runtime_error(
+        "usage: embed_kernels ROOT FOLDER [--without FEATURE,...] cl/NAME.cl ...; or ROOT FOLDER --module NAME SOURCES "
+        "KERNELS BUFFERS NAME.cl");
   const Job job = job_of({arguments + 1, arguments + count});
   const std::vector<embed::KernelRow> rows = embed::kernel_rows(job.lists);
   check_stages(rows, job);
   std::set<std::string> files{job.lists.kernels, job.lists.root + "/shared/buffers.def",
                               job.lists.root + "/shared/argument_groups.h"};
   if (!job.lists.buffers.empty()) files.insert(job.lists.buffers);
-  write_file(job.written, source_of(job, rows, arguments[2], files));
+  write_file(job.written, source_of(job, sources_of(job, rows), arguments[2], files));
   write_file(job.written + ".d", rule_of(job.written, files));
 } catch (const std::exception &error) {
   std::cerr << "embed_kernels: " << error.what() << '\n';

@@ -99,7 +99,8 @@ void read_buffer_types(const std::string &list, std::map<std::string, std::strin
 {
   for (const Call &row : calls_in(without_directives(without_comments(read_file(list))))) {
     if (row.name != "BUFFER" || row.arguments.size() != 7)
-      throw std::runtime_error(list + ":" + std::to_string(row.line) + ": not a row of a buffer, BUFFER(name, element, "
+      throw std::runtime_error(list + ":" + std::to_string(row.line) +
+                               ": not a row of a buffer, BUFFER(name, element, "
                                "capacity, elements per item, feature, lifetime, \"fields\")");
     types[row.arguments[0]] = type_of_element(row.arguments[1]);
     const bool has_two_sides = row.arguments[5] == "STATE" || row.arguments[5] == "CACHE";
@@ -144,7 +145,7 @@ public:
   KernelRow row_from(const Call &call) const
   {
     if (call.name != "KERNEL" || call.arguments.size() != 6) throw std::runtime_error("not a row of a kernel");
-    KernelRow row{call.arguments[0], call.arguments[1], call.arguments[2], {}, {}, call.line};
+    KernelRow row{call.arguments[0], call.arguments[1], call.arguments[2], call.arguments[4], {}, {}, call.line};
     for (const Call &argument : calls_in(call.arguments[5]))
       if (argument.name == "LOCAL_MEMORY") row.local_words = argument.arguments.at(0);
       else row.arguments.push_back(argument_from(argument));

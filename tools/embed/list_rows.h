@@ -24,7 +24,7 @@ struct FunctionArgument {
 };
 
 struct KernelRow {
-  std::string name, stage, execution;
+  std::string name, stage, execution, feature;
   std::vector<FunctionArgument> arguments;
   std::string local_words; /* of a GROUP kernel: the size of its local memory */
   int line;                /* of kernels.def, from 1 */

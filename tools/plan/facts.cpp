@@ -10,12 +10,6 @@
 namespace tandem {
 namespace {
 
-constexpr FeatureRow feature_rows[] = {
-#define FEATURE(name, what) {#name, what},
-#include "shared/features.def"
-#undef FEATURE
-};
-
 std::vector<bool> kernels_of(const World &world)
 {
   std::vector<bool> built(kernel_count, false);
@@ -58,8 +52,6 @@ bool touches(Kernel kernel, Buffer buffer, bool writes)
 
 } // namespace
 
-const FeatureRow &feature_row(int feature) { return feature_rows[feature]; }
-
 Plan::Plan(World &chosen, World &everything)
     : chosen(chosen), everything(everything), built_(kernels_of(chosen)), built_with_all_(kernels_of(everything))
 {}
@@ -69,6 +61,14 @@ std::string Plan::backend_of(Kernel kernel) const { return builds(kernel) ? chos
 uint64_t Plan::bytes(Buffer buffer) const { return chosen.memory().bytes(buffer); }
 uint64_t Plan::bytes_with_all(Buffer buffer) const { return everything.memory().bytes(buffer); }
 std::string Plan::flags() const { return fmt::format("-D FEATURES={:#x}ul", chosen.features()); }
+
+std::string Plan::library_option() const
+{
+  std::string names;
+  for (int f = 0; f < FEATURE_COUNT; ++f)
+    if (has(f)) names += fmt::format("{}{}", names.empty() ? "" : ";", feature_rows[f].name);
+  return fmt::format("-DTANDEM_FEATURES=\"{}\"", names);
+}
 
 std::vector<StageSum> sums_by_stage(const Plan &plan)
 {

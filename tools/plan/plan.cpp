@@ -10,6 +10,7 @@
 
 #include "host/pipeline/broadphases/broadphase.h"
 #include "host/runtime/interface/backend.h"
+#include "host/runtime/interface/built_features.h"
 #include "host/runtime/memory.h"
 #include "tools/command/command.h"
 #include "tools/command/output.h"
@@ -38,7 +39,7 @@ Json features_json(const Plan &plan)
 {
   Json list = Json::array();
   for (int f = 0; f < FEATURE_COUNT; ++f)
-    list.push_back({{"name", feature_row(f).name}, {"what", feature_row(f).what}, {"in", plan.has(f)}});
+    list.push_back({{"name", feature_rows[f].name}, {"what", feature_rows[f].what}, {"in", plan.has(f)}});
   return list;
 }
 
@@ -100,6 +101,8 @@ Json plan_json(const Plan &plan, const std::string &scene, const Placement &plac
           {"backend", placement.on},
           {"features", features_json(plan)},
           {"flags", plan.flags()},
+          {"library_features", built_option()},
+          {"library_option", plan.library_option()},
           {"broadphase", name_of(plan.chosen.settings().broadphase)},
           {"broadphase_why", plan.chosen.broadphase_why()},
           {"placement", placement_json(plan.chosen.placement_report())},
@@ -111,12 +114,20 @@ Json plan_json(const Plan &plan, const std::string &scene, const Placement &plac
           {"build_ms", plan.chosen.build_milliseconds()}};
 }
 
+/* What it was configured for. */
+std::string library_text()
+{
+  const std::string option = built_option();
+  return option.empty() ? "built for all features" : fmt::format("built for TANDEM_FEATURES=\"{}\"", option);
+}
+
 void print_features(const Plan &plan)
 {
   Table table({"feature", "", "what brings it in"}, false);
   for (int f = 0; f < FEATURE_COUNT; ++f)
-    table.add({feature_row(f).name, plan.has(f) ? "in" : "out", feature_row(f).what});
-  fmt::print("{}\nflags: {}\n\n", table.text("  "), plan.flags());
+    table.add({feature_rows[f].name, plan.has(f) ? "in" : "out", feature_rows[f].what});
+  fmt::print("{}\nflags: {}\n", table.text("  "), plan.flags());
+  fmt::print("library: {}; for such scenes alone: {}\n\n", library_text(), plan.library_option());
 }
 
 /* Breaks names into lines of at most 100 columns. */

@@ -12,12 +12,6 @@
 
 namespace tandem {
 
-struct FeatureRow {
-  const char *name;
-  const char *what;
-};
-const FeatureRow &feature_row(int feature);
-
 class Plan {
 public:
   Plan(World &chosen, World &everything);
@@ -31,6 +25,7 @@ public:
   uint64_t bytes(Buffer buffer) const;
   uint64_t bytes_with_all(Buffer buffer) const;
   std::string flags() const;
+  std::string library_option() const; /* configures a library that has these features alone */
 
 private:
   std::vector<bool> built_, built_with_all_;

@@ -1,5 +1,5 @@
 /* features.h - the rows of features.def as sets of one feature, such as FEATURE_TREES, which the host tests and
- * unites. */
+ * unites, and their names. */
 #pragma once
 
 #include <limits>
@@ -18,5 +18,16 @@ constexpr Features FEATURE_ALWAYS = 0;
 #define FEATURE(name, what) constexpr Features FEATURE_##name = feature_of_index(FEATURE_INDEX_##name);
 #include "shared/features.def"
 #undef FEATURE
+
+struct FeatureRow {
+  const char *name;
+  const char *what; /* brings it in */
+};
+
+constexpr FeatureRow feature_rows[] = {
+#define FEATURE(name, what) {#name, what},
+#include "shared/features.def"
+#undef FEATURE
+};
 
 } // namespace tandem
