@@ -21,6 +21,7 @@
 #include "tools/bench/scenes.h"
 #include "tools/bench/sleeping.h"
 #include "tools/bench/snapshots.h"
+#include "tools/bench/starts.h"
 #include "tools/bench/support.h"
 #include "tools/bench/worlds.h"
 #include "tools/command/command.h"
@@ -274,6 +275,21 @@ int execute_floors(const BenchOptions &options)
   return 0;
 }
 
+int execute_starts(const BenchOptions &options)
+{
+  const std::vector<std::string> scenes = start_scenes(options.scenes);
+  const MarkedTable table{options.table, "starts " + options.on};
+  DistinctFiles files;
+  options.json.check(files);
+  table.check(files);
+  const std::vector<StartTime> starts = bench_starts(scenes, {options.on, {}, options.inexact});
+  if (!options.json.takes_standard_output()) fmt::print("starts on {}:\n{}", options.on, starts_text(starts));
+  table.write(fmt::format("```\ntandem bench starts --on {} --scene {} --table-in {}\n```\n{}", options.on,
+                          fmt::join(scenes, ","), options.table, starts_markdown(starts)));
+  options.json.write({{"what", options.what}, {"backend", options.on}, {"starts", starts_json(starts)}});
+  return 0;
+}
+
 /* The exit status is 1 if hill climbing ever ends at another vertex. */
 int execute_support(const BenchOptions &options)
 {
@@ -314,7 +330,7 @@ Json result_json(const BenchOptions &options, const Result &result)
 }
 
 constexpr const char *benchmarks = "sort, scan, broadphase, batching, narrowphase, rays, support, snapshots, "
-                                   "sleeping, bodies, worlds, scenes, floors or step";
+                                   "sleeping, bodies, worlds, scenes, floors, starts or step";
 
 /* Throws InputError for options of one benchmark that are given to another. */
 void check_options(const BenchOptions &options)
@@ -327,11 +343,12 @@ void check_options(const BenchOptions &options)
   only_of("--pairs", !options.pairs.empty(), {"narrowphase"});
   only_of("--broadphase", !options.broadphases.empty(), {"broadphase"});
   only_of("--chart", !options.chart.empty(), {"broadphase"});
-  only_of("--scene", !options.scenes.empty(), {"broadphase", "scenes", "floors"});
+  only_of("--scene", !options.scenes.empty(), {"broadphase", "scenes", "floors", "starts"});
   only_of("--steps", !options.steps.empty(), {"scenes"});
-  only_of("--table-in", !options.table.empty(), {"scenes", "floors"});
-  if (options.what == "floors" && !options.count.empty())
-    throw InputError("--n: bench floors takes the size from --scene, as --scene spheres:n=1000; leave it out");
+  only_of("--table-in", !options.table.empty(), {"scenes", "floors", "starts"});
+  if ((options.what == "floors" || options.what == "starts") && !options.count.empty())
+    throw InputError(fmt::format("--n: bench {} takes the size from --scene, as --scene spheres:n=1000; leave it out",
+                                 options.what));
   if (options.what == "scenes" && !options.count.empty())
     throw InputError("--n: the scenes of bench scenes have the numbers of bodies of `tandem scenes`; leave it out");
 }
@@ -350,6 +367,7 @@ int execute(const BenchOptions &options)
   if (options.what == "worlds") return execute_worlds(options);
   if (options.what == "scenes") return execute_scenes(options);
   if (options.what == "floors") return execute_floors(options);
+  if (options.what == "starts") return execute_starts(options);
   const bool step = options.what == "step";
   if (!step && options.what != "sort" && options.what != "scan")
     throw InputError(fmt::format("bench '{}' is unknown; use {}", options.what, benchmarks));
@@ -368,17 +386,19 @@ Command bench_command(CLI::App &parser)
 {
   CLI::App *command = parser.add_subcommand(
       "bench", "time one part by itself: sort, scan, broadphase, batching, "
-               "narrowphase, rays, support, snapshots, sleeping, bodies, worlds, scenes, floors, step");
+               "narrowphase, rays, support, snapshots, sleeping, bodies, worlds, scenes, floors, starts, step");
   auto options = std::make_shared<BenchOptions>();
   command
-      ->add_option("WHAT", options->what,
-                   "sort (32-bit keys with values), scan, broadphase (every one on the same moving bodies), batching "
-                   "(scenes of the talks; box-grid with --n), narrowphase (pairs of shapes), rays (against 100,000 "
-                   "boxes), support (farthest vertices of hulls), snapshots (states kept on the device, and saved to "
-                   "the host), sleeping (one island awake among bodies that sleep), bodies (that come and go, and "
-                   "one that is read), worlds (many small ones in a batch, and one after another), scenes (what every "
-                   "built-in scene takes: kernels, launches, memory, time), floors (bytes that each stage must "
-                   "move, and how long a copy of them takes), step (box-grid)")
+      ->add_option(
+          "WHAT", options->what,
+          "sort (32-bit keys with values), scan, broadphase (every one on the same moving bodies), batching "
+          "(scenes of the talks; box-grid with --n), narrowphase (pairs of shapes), rays (against 100,000 "
+          "boxes), support (farthest vertices of hulls), snapshots (states kept on the device, and saved to "
+          "the host), sleeping (one island awake among bodies that sleep), bodies (that come and go, and "
+          "one that is read), worlds (many small ones in a batch, and one after another), scenes (what every "
+          "built-in scene takes: kernels, launches, memory, time), floors (bytes that each stage must "
+          "move, and how long a copy of them takes), starts (from nothing to the first step, and to the first on "
+          "the device, with the caches of its driver off and filled), step (box-grid)")
       ->required()
       ->type_name("");
   command->add_option("--on", options->on, "backend")->type_name("B")->capture_default_str();
@@ -399,7 +419,7 @@ Command bench_command(CLI::App &parser)
   command
       ->add_option("--scene", options->scenes,
                    "broadphase: these inputs alone, as spheres,pile; scenes: these built-in scenes alone; floors: "
-                   "one scene with its parameters")
+                   "one scene with its parameters; starts: scenes with their parameters")
       ->delimiter(',')
       ->type_name("NAME,...");
   command
@@ -408,8 +428,9 @@ Command bench_command(CLI::App &parser)
                                scene_warm_steps, scene_timed_steps))
       ->type_name("N");
   command
-      ->add_option("--table-in", options->table,
-                   "scenes, floors: write the table between the marks of this Markdown page, which name the backend")
+      ->add_option(
+          "--table-in", options->table,
+          "scenes, floors, starts: write the table between the marks of this Markdown page, which name the backend")
       ->type_name("FILE.md");
   command->add_option("--chart", options->chart, "broadphase: write charts of time over bodies, one a scene")
       ->type_name("FILE.svg");
