@@ -4,7 +4,7 @@
 #include "tests/host/runtime/opencl/pocl.h"
 #include "tests/tools/command/command_line.h"
 
-using namespace command_line;
+namespace command_line {
 
 TEST_CASE("command: bench starts has a row for each start and writes its table into a page", "[command]")
 {
@@ -78,4 +78,6 @@ TEST_CASE("command: run --start has the same hash from either start, and says wh
   CHECK(worlds.status == 0);
   CHECK(worlds.out.find("\n  start ") != std::string::npos);
 }
+
+} // namespace command_line
 #endif
