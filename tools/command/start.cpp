@@ -2,6 +2,7 @@
 #include "tools/command/start.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <tandem/error.h>
 
@@ -27,8 +28,10 @@ std::string start_text(const PlacementReport &report, bool is_placed)
                      building.kernels, building.milliseconds * 1e-3, report.on);
 }
 
+/* Where nobody looks, no other thread builds than without a bar. */
 void BuildingBar::watch(Placement &placement)
 {
+  if (!isatty(STDERR_FILENO)) return;
   placement.while_building = [bar = bar_](size_t built, size_t kernels) {
     if (!*bar) bar->emplace("building kernels", kernels);
     (*bar)->update(built);
