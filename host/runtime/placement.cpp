@@ -39,6 +39,11 @@ void validate(const Placement &placement)
     throw InputError(fmt::format("placement auto on {}: only backends that are exact can be chosen by their times, "
                                  "because results must not depend on them",
                                  placement.on));
+  if (placement.start == Start::on_cpu && placement.allow_inexact)
+    throw InputError(
+        fmt::format("placement on {}: only on backends that are exact can a world start on the CPU, because "
+                    "results must not depend on when the kernels of the device are built",
+                    placement.on));
 }
 
 std::vector<std::pair<std::string, std::string>> parse_placement(const std::string &text)

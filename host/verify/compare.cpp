@@ -81,6 +81,7 @@ std::unique_ptr<World> Lockstep::make_world(size_t index) const
 {
   Placement placement = request_.placement;
   placement.build_in_background = false; /* what is compared must run where it was asked to */
+  placement.start = Start::on_device;
   placement.on = request_.backends.front();
   placement.broadphase_for = broadphase_backend(placement); /* individual choices could differ, and other kernels run */
   placement.on = request_.backends[index];

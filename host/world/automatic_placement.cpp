@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <thread>
 
 #include <fmt/format.h>
 
@@ -57,11 +56,10 @@ void AutomaticPlacement::look_for_device(PlacedBackends &backends, const std::ve
   if (choice_.is_building() && backends.is_built(placement_of(Candidate::device), kernels)) choice_.device_is_built();
 }
 
-/* What cannot be built counts as built, and fails where it is placed. */
-void AutomaticPlacement::wait_for_device(PlacedBackends &backends, const std::vector<Kernel> &kernels)
+bool AutomaticPlacement::has_looked_for_device(PlacedBackends &backends, const std::vector<Kernel> &kernels)
 {
-  for (look_for_device(backends, kernels); choice_.is_building(); look_for_device(backends, kernels))
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  look_for_device(backends, kernels);
+  return !choice_.is_building();
 }
 
 std::optional<Placement> AutomaticPlacement::wanted() const
@@ -174,7 +172,7 @@ std::string AutomaticPlacement::why() const
 
 PlacementReport AutomaticPlacement::report() const
 {
-  PlacementReport report{text_of(choice_.next()), why(), choice_.is_settled(), {}, {}};
+  PlacementReport report{text_of(choice_.next()), why(), choice_.is_settled(), {}, {}, {}};
   for (const Candidate candidate : {Candidate::cpu, Candidate::device, Candidate::cut})
     if (const std::optional<double> time = choice_.milliseconds_of(candidate))
       report.times.push_back({text_of(candidate), *time});

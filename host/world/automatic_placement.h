@@ -35,7 +35,8 @@ public:
 
   /* Makes the device, so that one that is not there is refused at once, and begins to build its kernels. */
   void look_for_device(PlacedBackends &backends, const std::vector<Kernel> &kernels);
-  void wait_for_device(PlacedBackends &backends, const std::vector<Kernel> &kernels);
+  /* The same, and whether the kernels are built. What cannot be built counts as built, and fails where it is placed. */
+  bool has_looked_for_device(PlacedBackends &backends, const std::vector<Kernel> &kernels);
   /* A placement that the next step should have, if it is another one than that of the last step. */
   std::optional<Placement> wanted() const;
   void was_placed() { placed_ = choice_.next(); }

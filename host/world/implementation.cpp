@@ -2,6 +2,7 @@
 #include "host/world/implementation.h"
 
 #include <algorithm>
+#include <chrono>
 
 #include <fmt/format.h>
 
@@ -184,6 +185,35 @@ void World::Implementation::place_again()
 {
   backends.place_again(buffers.needs().kernels);
   buffers.changed();
+  structure_state = 0;
+}
+
+/* Whether nothing is being built that the placement waits for. */
+bool World::Implementation::is_built()
+{
+  const std::vector<Kernel> &kernels = buffers.needs().kernels;
+  if (automatic && !automatic->has_looked_for_device(backends, kernels)) return false;
+  return !backends.is_waiting() || backends.is_built(backends.wanted(), kernels);
+}
+
+bool World::Implementation::wait_until_placed(double seconds)
+{
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point start = Clock::now();
+  const auto waited = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
+  while (!is_built() && waited() < seconds) backends.tell_progress(backends.wanted());
+  if (backends.is_waiting()) place_again();
+  return !backends.is_waiting();
+}
+
+PlacementReport World::Implementation::placement_report() const
+{
+  PlacementReport report{backends.wanted().on, "as asked", true, {}, {}, {}};
+  if (automatic) report = automatic->report();
+  else if (backends.is_waiting())
+    report = {"tbb", fmt::format("until the kernels of {} are built", report.on), false, {}, {}, {}};
+  report.building = backends.building();
+  return report;
 }
 
 void World::Implementation::upload_scene()

@@ -86,6 +86,9 @@ struct World::Implementation {
   void place_as_chosen();
   void end_timed_step() noexcept;
   void place_again(); /* if other kernels are needed than before */
+  bool is_built();
+  bool wait_until_placed(double seconds);
+  PlacementReport placement_report() const;
   void upload_scene();
   Parameters parameters_now() const;
   void stage_tables(StagedUploads &uploads);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <thread>
 #include <utility>
 
 #include "host/pipeline/cpu_kernels.h"
@@ -12,6 +13,7 @@ namespace tandem {
 namespace {
 
 constexpr const char *until_built = "tbb";
+constexpr std::chrono::milliseconds between_looks{1};
 
 std::string backend_text(const Placement &placement, Kernel kernel)
 {
@@ -81,9 +83,59 @@ bool PlacedBackends::is_built(const Placement &placement, const std::vector<Kern
   return built;
 }
 
+Backend::Progress PlacedBackends::progress() const
+{
+  Backend::Progress sum;
+  for (const auto &[text, backend] : backends_) {
+    const Backend::Progress own = backend->progress();
+    sum.built += own.built;
+    sum.wanted += own.wanted;
+  }
+  return sum;
+}
+
+void PlacedBackends::tell_progress(const Placement &placement) const
+{
+  const Backend::Progress now = progress();
+  if (placement.while_building) placement.while_building(now.built, now.wanted);
+  std::this_thread::sleep_for(between_looks);
+}
+
+double PlacedBackends::milliseconds_waiting() const
+{
+  if (!waiting_) return 0;
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - waiting_since_).count();
+}
+
+void PlacedBackends::note_waiting(bool waiting)
+{
+  building_.milliseconds += milliseconds_waiting();
+  waiting_since_ = std::chrono::steady_clock::now();
+  waiting_ = waiting;
+}
+
+void PlacedBackends::note_step(uint64_t steps)
+{
+  if (!waiting_) return;
+  ++building_.steps_on_cpu;
+  building_.moved_after = steps;
+}
+
+PlacementReport::Building PlacedBackends::building() const
+{
+  PlacementReport::Building building = building_;
+  building.milliseconds += milliseconds_waiting();
+  const Backend::Progress now = progress();
+  building.built = now.built;
+  building.kernels = now.wanted;
+  return building;
+}
+
 /* Everything that can fail comes before the first change of the placement. */
 void PlacedBackends::assign(const Placement &placement, const std::vector<Kernel> &kernels, bool in_background)
 {
+  if (!in_background && placement.while_building) /* a thread builds, so that this one can tell */
+    while (!is_built(placement, kernels)) tell_progress(placement);
   const std::map<Backend *, std::vector<Kernel>> own = by_backend(placement, kernels);
   std::vector<Backend *> placed(all_kernels());
   bool waiting = false;
@@ -95,14 +147,14 @@ void PlacedBackends::assign(const Placement &placement, const std::vector<Kernel
     for (Kernel kernel : theirs) placed[index_of(kernel)] = now;
   }
   placed_ = std::move(placed);
-  waiting_ = waiting;
+  note_waiting(waiting);
 }
 
 void PlacedBackends::place(const Placement &placement, const std::vector<Kernel> &kernels)
 {
   validate(placement);
   Placement wanted = placement; /* which may take memory that is not there */
-  assign(placement, kernels, false);
+  assign(placement, kernels, placement.start == Start::on_cpu);
   wanted_ = std::move(wanted);
 }
 
@@ -131,7 +183,8 @@ Backend &PlacedBackends::of(Kernel kernel)
   Backend *&backend = placed_.at(index_of(kernel));
   if (!backend) {
     Backend &chosen = for_kernel(wanted_, kernel);
-    if (waiting_ && !chosen.is_built_ahead(features_, {kernel})) return named(until_built, wanted_.allow_inexact);
+    const bool waits = !waiting_ && wanted_.start == Start::on_device;
+    if (!waits && !chosen.is_built_ahead(features_, {kernel})) return named(until_built, wanted_.allow_inexact);
     chosen.prepare(features_, {kernel}); /* if this throws, no backend is chosen */
     backend = &chosen;
   }

@@ -49,6 +49,7 @@ void World::Implementation::step(const StepLimits &limits)
   }
   whole = true;
   idle = false;
+  backends.note_step(statistics.steps);
   if (settings.sleeping) fall_asleep();
   if (automatic) end_timed_step();
   sleep_events = std::exchange(sleep_events_to_come, {});

@@ -100,10 +100,12 @@ void World::place(const Placement &placement)
 {
   answer("the placement", implementation_->slots.existing(), [&] { implementation_->place_as_asked(placement); });
 }
-PlacementReport World::placement_report() const
+PlacementReport World::placement_report() const { return implementation_->placement_report(); }
+bool World::is_placed() const { return !implementation_->backends.is_waiting(); }
+bool World::wait_until_placed(double seconds)
 {
-  if (implementation_->automatic) return implementation_->automatic->report();
-  return {implementation_->backends.wanted().on, "as asked", true, {}, {}};
+  return answer("the placement", implementation_->slots.existing(),
+                [&] { return implementation_->wait_until_placed(seconds); });
 }
 const Scene &World::scene() const { return implementation_->scene; }
 const Settings &World::settings() const { return implementation_->settings; }
@@ -580,9 +582,7 @@ uint64_t World::Implementation::state_hash()
 
 void World::finish()
 {
-  if (implementation_->backends.is_waiting()) implementation_->place(implementation_->backends.wanted());
-  if (implementation_->automatic)
-    implementation_->automatic->wait_for_device(implementation_->backends, implementation_->buffers.needs().kernels);
+  if (implementation_->backends.wanted().start == Start::on_device) wait_until_placed();
   /* A device that was measured and not chosen would cost a small scene more than its step. */
   if (implementation_->automatic && implementation_->ring.size() == 0) implementation_->backends.finish_launches();
   else implementation_->backends.finish();

@@ -307,6 +307,9 @@ std::vector<Quarantine> Worlds::quarantined(uint32_t world) const
 }
 
 Statistics Worlds::statistics() { return implementation_->world->statistics(); }
+PlacementReport Worlds::placement_report() const { return implementation_->world->placement_report(); }
+bool Worlds::is_placed() const { return implementation_->world->is_placed(); }
+bool Worlds::wait_until_placed(double seconds) { return implementation_->world->wait_until_placed(seconds); }
 void Worlds::finish() { implementation_->world->finish(); }
 void Worlds::prepare_kernels() { implementation_->world->prepare_kernels(); }
 void Worlds::set_profiling(bool on) { implementation_->world->set_profiling(on); }

@@ -23,6 +23,7 @@
 #include "tools/bench/sizes.h"
 #include "tools/bench/sleeping.h"
 #include "tools/bench/snapshots.h"
+#include "tools/bench/starts.h"
 #include "tools/bench/support.h"
 #include "tools/bench/worlds.h"
 #include "tools/command/command.h"
@@ -327,6 +328,21 @@ int execute_sizes(const BenchOptions &options)
   return 0;
 }
 
+int execute_starts(const BenchOptions &options)
+{
+  const std::vector<std::string> scenes = start_scenes(options.scenes);
+  const MarkedTable table{options.table, "starts " + options.on};
+  DistinctFiles files;
+  options.json.check(files);
+  table.check(files);
+  const std::vector<StartTime> starts = bench_starts(scenes, {options.on, {}, options.inexact});
+  if (!options.json.takes_standard_output()) fmt::print("starts on {}:\n{}", options.on, starts_text(starts));
+  table.write(fmt::format("```\ntandem bench starts --on {} --scene {} --table-in {}\n```\n{}", options.on,
+                          fmt::join(scenes, ","), options.table, starts_markdown(starts)));
+  options.json.write({{"what", options.what}, {"backend", options.on}, {"starts", starts_json(starts)}});
+  return 0;
+}
+
 /* The exit status is 1 if hill climbing ever ends at another vertex. */
 int execute_support(const BenchOptions &options)
 {
@@ -366,8 +382,59 @@ Json result_json(const BenchOptions &options, const Result &result)
   return json;
 }
 
-constexpr const char *benchmarks = "sort, scan, broadphase, batching, narrowphase, rays, support, snapshots, "
-                                   "sleeping, bodies, worlds, scenes, left-out, floors, sizes or step";
+/* Benchmarks that measure one thing, a number of times. */
+int execute_repeated(const BenchOptions &options)
+{
+  const bool step = options.what == "step";
+  const uint64_t most = step ? most_bodies : uint64_t{1} << 28;
+  const uint64_t count = options.count.empty() ? (step ? 1000 : 1 << 20) : whole_number("--n", options.count, 1, most);
+  options.json.check();
+  const Result result = step ? bench_step(options, count) : bench_primitive(options, count);
+  if (!options.json.takes_standard_output()) print_result(options, result);
+  options.json.write(result_json(options, result));
+  return 0;
+}
+
+struct Benchmark {
+  const char *name, *what;
+  int (*execute)(const BenchOptions &);
+};
+constexpr Benchmark benchmarks[] = {
+    {"sort", "32-bit keys with values", execute_repeated},
+    {"scan", "of numbers", execute_repeated},
+    {"broadphase", "every one on the same moving bodies", execute_broadphase},
+    {"batching", "scenes of the talks; box-grid with --n", execute_batching},
+    {"narrowphase", "pairs of shapes", execute_narrowphase},
+    {"rays", "against 100,000 boxes", execute_rays},
+    {"support", "farthest vertices of hulls", execute_support},
+    {"snapshots", "states kept on the device, and saved to the host", execute_snapshots},
+    {"sleeping", "one island awake among bodies that sleep", execute_sleeping},
+    {"bodies", "that come and go, and one that is read", execute_bodies},
+    {"worlds", "many small ones in a batch, and one after another", execute_worlds},
+    {"scenes", "what every built-in scene takes: kernels, launches, memory, time", execute_scenes},
+    {"left-out", "what a scene saves by each feature that it lacks", execute_left_out},
+    {"floors", "bytes that each stage must move, and how long a copy of them takes", execute_floors},
+    {"starts",
+     "from nothing to the first step, and to the first on the device, with the caches of its driver off and "
+     "filled",
+     execute_starts},
+    {"sizes", "box-grid from 8 boxes to millions", execute_sizes},
+    {"step", "box-grid", execute_repeated},
+};
+
+std::vector<std::string> benchmark_names()
+{
+  std::vector<std::string> names;
+  for (const Benchmark &benchmark : benchmarks) names.push_back(benchmark.name);
+  return names;
+}
+
+std::string benchmarks_text()
+{
+  std::vector<std::string> texts;
+  for (const Benchmark &benchmark : benchmarks) texts.push_back(fmt::format("{} ({})", benchmark.name, benchmark.what));
+  return fmt::format("{}", fmt::join(texts, ", "));
+}
 
 /* Throws InputError for options of one benchmark that are given to another. */
 void check_options(const BenchOptions &options)
@@ -381,11 +448,12 @@ void check_options(const BenchOptions &options)
   only_of("--broadphase", !options.broadphases.empty(), {"broadphase"});
   only_of("--chart", !options.chart.empty(), {"broadphase", "sizes"});
   only_of("--beside", !options.beside.empty(), {"sizes"});
-  only_of("--scene", !options.scenes.empty(), {"broadphase", "scenes", "left-out", "floors"});
+  only_of("--scene", !options.scenes.empty(), {"broadphase", "scenes", "left-out", "floors", "starts"});
   only_of("--steps", !options.steps.empty(), {"scenes", "left-out"});
-  only_of("--table-in", !options.table.empty(), {"scenes", "left-out", "floors"});
-  if (options.what == "floors" && !options.count.empty())
-    throw InputError("--n: bench floors takes the size from --scene, as --scene spheres:n=1000; leave it out");
+  only_of("--table-in", !options.table.empty(), {"scenes", "left-out", "floors", "starts"});
+  if ((options.what == "floors" || options.what == "starts") && !options.count.empty())
+    throw InputError(fmt::format("--n: bench {} takes the size from --scene, as --scene spheres:n=1000; leave it out",
+                                 options.what));
   if ((options.what == "scenes" || options.what == "left-out") && !options.count.empty())
     throw InputError(fmt::format(
         "--n: the scenes of bench {} have the numbers of bodies of `tandem scenes`; leave it out", options.what));
@@ -394,53 +462,20 @@ void check_options(const BenchOptions &options)
 int execute(const BenchOptions &options)
 {
   check_options(options);
-  if (options.what == "broadphase") return execute_broadphase(options);
-  if (options.what == "batching") return execute_batching(options);
-  if (options.what == "narrowphase") return execute_narrowphase(options);
-  if (options.what == "rays") return execute_rays(options);
-  if (options.what == "support") return execute_support(options);
-  if (options.what == "snapshots") return execute_snapshots(options);
-  if (options.what == "sleeping") return execute_sleeping(options);
-  if (options.what == "bodies") return execute_bodies(options);
-  if (options.what == "worlds") return execute_worlds(options);
-  if (options.what == "scenes") return execute_scenes(options);
-  if (options.what == "left-out") return execute_left_out(options);
-  if (options.what == "floors") return execute_floors(options);
-  if (options.what == "sizes") return execute_sizes(options);
-  const bool step = options.what == "step";
-  if (!step && options.what != "sort" && options.what != "scan")
-    throw InputError(fmt::format("bench '{}' is unknown; use {}", options.what, benchmarks));
-  const uint64_t most = step ? most_bodies : uint64_t{1} << 28;
-  const uint64_t count = options.count.empty() ? (step ? 1000 : 1 << 20) : whole_number("--n", options.count, 1, most);
-  options.json.check();
-  const Result result = step ? bench_step(options, count) : bench_primitive(options, count);
-  if (!options.json.takes_standard_output()) print_result(options, result);
-  options.json.write(result_json(options, result));
-  return 0;
+  for (const Benchmark &benchmark : benchmarks)
+    if (options.what == benchmark.name) return benchmark.execute(options);
+  throw InputError(
+      fmt::format("bench '{}' is unknown; use one of {}", options.what, fmt::join(benchmark_names(), ", ")));
 }
 
 } // namespace
 
 Command bench_command(CLI::App &parser)
 {
-  CLI::App *command = parser.add_subcommand(
-      "bench",
-      "time one part by itself: sort, scan, broadphase, batching, "
-      "narrowphase, rays, support, snapshots, sleeping, bodies, worlds, scenes, left-out, floors, sizes, step");
+  CLI::App *command =
+      parser.add_subcommand("bench", fmt::format("time one part by itself: {}", fmt::join(benchmark_names(), ", ")));
   auto options = std::make_shared<BenchOptions>();
-  command
-      ->add_option(
-          "WHAT", options->what,
-          "sort (32-bit keys with values), scan, broadphase (every one on the same moving bodies), batching "
-          "(scenes of the talks; box-grid with --n), narrowphase (pairs of shapes), rays (against 100,000 "
-          "boxes), support (farthest vertices of hulls), snapshots (states kept on the device, and saved to "
-          "the host), sleeping (one island awake among bodies that sleep), bodies (that come and go, and "
-          "one that is read), worlds (many small ones in a batch, and one after another), scenes (what every "
-          "built-in scene takes: kernels, launches, memory, time), left-out (what a scene saves by each feature that "
-          "it lacks), floors (bytes that each stage must "
-          "move, and how long a copy of them takes), sizes (box-grid from 8 boxes to millions), step (box-grid)")
-      ->required()
-      ->type_name("");
+  command->add_option("WHAT", options->what, benchmarks_text())->required()->type_name("");
   command->add_option("--on", options->on, "backend")->type_name("B")->capture_default_str();
   command
       ->add_option("--n", options->count,
@@ -459,7 +494,7 @@ Command bench_command(CLI::App &parser)
   command
       ->add_option("--scene", options->scenes,
                    "broadphase: these inputs alone, as spheres,pile; scenes, left-out: these built-in scenes "
-                   "alone; floors: one scene with its parameters")
+                   "alone; floors: one scene with its parameters; starts: scenes with their parameters")
       ->delimiter(',')
       ->type_name("NAME,...");
   command
@@ -469,8 +504,8 @@ Command bench_command(CLI::App &parser)
       ->type_name("N");
   command
       ->add_option("--table-in", options->table,
-                   "scenes, left-out, floors: write the table between the marks of this Markdown page, which name the "
-                   "backend")
+                   "scenes, left-out, floors, starts: write the table between the marks of this Markdown page, which "
+                   "name the backend")
       ->type_name("FILE.md");
   command
       ->add_option("--chart", options->chart,

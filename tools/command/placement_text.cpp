@@ -23,7 +23,18 @@ Json placement_json(const PlacementReport &report)
     times.push_back({{"on", time.on}, {"step_ms", time.milliseconds}});
   for (const PlacementReport::StageTimes &stage : report.stages)
     stages.push_back({{"name", stage.stage}, {"cpu_ms", stage.on_cpu}, {"device_ms", stage.on_device}});
-  return {{"on", report.on}, {"why", report.why}, {"settled", report.settled}, {"measured", times}, {"stages", stages}};
+  const PlacementReport::Building &building = report.building;
+  return {{"on", report.on},
+          {"why", report.why},
+          {"settled", report.settled},
+          {"measured", times},
+          {"stages", stages},
+          {"building",
+           {{"steps_on_cpu", building.steps_on_cpu},
+            {"moved_after", building.moved_after},
+            {"ms", building.milliseconds},
+            {"built", building.built},
+            {"kernels", building.kernels}}}};
 }
 
 std::string stage_times_table(const PlacementReport &report)

@@ -17,6 +17,7 @@
 #include "tools/command/placement_text.h"
 #include "tools/command/progress.h"
 #include "tools/command/scene_options.h"
+#include "tools/command/start.h"
 #include "tools/plot/image.h"
 #include "tools/replay/recording_file.h"
 #include "tools/run/event_file.h"
@@ -30,7 +31,7 @@ namespace {
 struct RunOptions {
   explicit RunOptions(CLI::App &parser) : scene(parser, true) {}
   SceneOptions scene;
-  std::string worlds;
+  std::string worlds, start = "device";
   std::string save, image, image_size = "960x540", camera, trace, events, record, record_snapshots;
   bool allow_quarantine = false;
   JsonOutput json;
@@ -42,6 +43,12 @@ void add_options(CLI::App &parser, RunOptions &options)
       .add_option("--worlds", options.worlds,
                   "so many copies of the scene, stepped together; step times are of all, the hash of the first")
       ->type_name("N");
+  parser
+      .add_option("--start", options.start,
+                  "where the first steps run: device waits until the kernels of --on are built; cpu does not, and tbb "
+                  "makes the steps until then, with the same bits")
+      ->type_name("cpu|device")
+      ->capture_default_str();
   parser.add_option("--save", options.save, "write the motion as an animation for any glTF viewer")->type_name("F.glb");
   CLI::Option *image =
       parser
@@ -205,6 +212,7 @@ std::string facts_table(const Outcome &outcome, World &world, const Placement &p
   table.add({"memory", bytes_text(world.memory().total_bytes())});
   table.add({"kernels", fmt::format("{}, built in {:.0f} ms", world.kernels().size(), world.build_milliseconds())});
   if (placement.automatic) table.add({"placement", placement_text(world.placement_report())});
+  if (placement.start == Start::on_cpu) table.add({"start", start_text(world.placement_report(), world.is_placed())});
   table.add({"launches", launches_text(world, outcome.measurement)});
   table.add({"moved", fmt::format("{} a step between memories",
                                   bytes_text(static_cast<uint64_t>(outcome.measurement.bytes_moved)))});
@@ -279,6 +287,14 @@ void start_recording(const RunOptions &options, World &world)
   world.start_recording(options.record, recording);
 }
 
+Placement placement_of(const RunOptions &options, BuildingBar &bar)
+{
+  Placement placement = options.scene.placement();
+  placement.start = start_from(options.start);
+  bar.watch(placement);
+  return placement;
+}
+
 void refuse_files_of_one_world(const RunOptions &options)
 {
   for (const auto &[option, file] :
@@ -292,10 +308,12 @@ int execute_worlds(const RunOptions &options)
 {
   refuse_files_of_one_world(options);
   const auto count = static_cast<uint32_t>(whole_number("--worlds", options.worlds, 1, most_bodies));
-  const Placement placement = options.scene.placement();
+  BuildingBar bar;
+  const Placement placement = placement_of(options, bar);
   DistinctFiles files;
   check_files(options, files);
   Worlds worlds(options.scene.scene(files), count, options.scene.settings(), placement);
+  bar.clear();
   const WorldsOutcome outcome = simulate_worlds(worlds, options.scene.scene_text(), options.scene.steps());
   if (!options.json.takes_standard_output()) fmt::print("{}", worlds_text(outcome, worlds, placement));
   options.json.write(worlds_json(outcome, worlds, placement));
@@ -311,13 +329,16 @@ int execute(const RunOptions &options)
   if (!options.worlds.empty()) return execute_worlds(options);
   Settings settings = options.scene.settings();
   settings.events = !options.events.empty();
-  const Placement placement = options.scene.placement();
+  BuildingBar bar;
+  const Placement placement = placement_of(options, bar);
   const uint64_t steps = options.scene.steps();
   DistinctFiles files;
   check_files(options, files);
   World world(options.scene.scene(files), settings, placement);
+  bar.clear();
   start_recording(options, world);
   const Outcome outcome = simulate(world, options, steps);
+  bar.clear(); /* an automatic placement has waited in the first step */
   world.stop_recording();
   save_image(options, world);
   if (!options.json.takes_standard_output()) print_outcome(outcome, world, placement);

@@ -5,7 +5,9 @@
 
 #include <fmt/format.h>
 
+#include "tools/command/placement_text.h"
 #include "tools/command/progress.h"
+#include "tools/command/start.h"
 #include "tools/run/stage_table.h"
 
 namespace tandem {
@@ -41,6 +43,7 @@ std::string worlds_text(const WorldsOutcome &outcome, const Worlds &worlds, cons
   table.add({"pairs", fmt::format("{}", statistics.pairs)});
   table.add({"contacts", fmt::format("{} points in {} pairs", statistics.contacts, statistics.manifolds)});
   table.add({"launches", fmt::format("{:.0f} a step", outcome.measurement.launches)});
+  if (placement.start == Start::on_cpu) table.add({"start", start_text(worlds.placement_report(), worlds.is_placed())});
   table.add({"hash", fmt::format("{}, of {} of {} worlds", hash_text(outcome.hashes.front()), equal_worlds(outcome),
                                  outcome.hashes.size())});
   return fmt::format("{}: {} worlds of {} bodies, {} steps of {:.6g} s on {}\n\n{}\n{}", outcome.scene, worlds.count(),
@@ -62,6 +65,7 @@ Json worlds_json(const WorldsOutcome &outcome, const Worlds &worlds, const Place
           {"contacts", outcome.statistics.contacts},
           {"nonfinite", outcome.statistics.nonfinite},
           {"overflow", outcome.statistics.overflow},
+          {"placement", placement_json(worlds.placement_report())},
           {"launches", outcome.measurement.launches},
           {"hash", hash_text(outcome.hashes.front())},
           {"equal_worlds", equal_worlds(outcome)}};

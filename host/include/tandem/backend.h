@@ -9,6 +9,8 @@
  */
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <utility>
@@ -17,6 +19,13 @@
 #include <tandem/export.h>
 
 namespace tandem {
+
+/* What makes the first steps of a world. Where its cache is empty, a driver compiles kernels for up to a minute. */
+enum class Start : uint8_t {
+  on_device, /* whoever places the world waits for its kernels, and finish() for those that calls bring in */
+  on_cpu,    /* nobody waits: `tbb` runs everything until the kernels of the device are built, queries, too; refused
+                with allow_inexact, because the bits would depend on when that is */
+};
 
 /* Which backend runs which kernel: one for all, and exceptions by stage ("narrowphase") or kernel name. */
 struct Placement {
@@ -35,6 +44,10 @@ struct Placement {
   bool automatic = false;
   std::function<double()> clock = {}; /* in ms; what the choice reads instead of the machine's, for programs that must
                                          repeat one */
+  /* Whatever is said here, the results are the same. An automatic placement starts on the CPU in any case. */
+  Start start = Start::on_device;
+  /* Called again and again while a call waits for kernels of OpenCL devices, of which so many are built. */
+  std::function<void(size_t built, size_t kernels)> while_building = {};
 };
 
 /* Throws InputError if an exception names no stage and no kernel, or if results might depend on an automatic choice. */

@@ -19,6 +19,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -113,6 +114,13 @@ struct PlacementReport {
     double on_cpu, on_device; /* ms of kernels a step */
   };
   std::vector<StageTimes> stages;
+  /* What `tbb` ran because kernels of devices were being built (Placement::start, Placement::build_in_background). */
+  struct Building {
+    uint64_t steps_on_cpu = 0;     /* so far */
+    uint64_t moved_after = 0;      /* the steps that had been made after the last of them */
+    double milliseconds = 0;       /* while it was so, up to now */
+    size_t built = 0, kernels = 0; /* of what was begun last */
+  } building;
 };
 
 class TANDEM_API World {
@@ -184,6 +192,11 @@ public:
   void place(const Placement &placement);
 
   PlacementReport placement_report() const;
+  /* False while `tbb` runs kernels that are being built for a device (Placement::start). A step takes them over when
+   * they are ready, and throws what the driver said if it could not build them; the step after that tries again. */
+  bool is_placed() const;
+  /* Waits for these kernels, at most so long, and takes them over; returns is_placed(). Throws as the step would. */
+  bool wait_until_placed(double seconds = std::numeric_limits<double>::infinity());
 
   const Scene &scene() const;
   const Settings &settings() const;          /* with the broadphase that `auto` has chosen for the next step */
@@ -385,8 +398,8 @@ public:
   const std::vector<Quarantine> &quarantined() const;
   const std::optional<BatchFault> &batch_fault() const; /* the first so far; only with Settings::check */
 
-  /* Waits for the devices, so that a clock read afterwards includes their work, and for kernels that are being built
-   * for them (Placement::build_in_background). */
+  /* Waits for the devices, so that a clock read afterwards includes their work, and, unless the world may start on the
+   * CPU (Placement::start), for kernels that are being built for them. */
   void finish();
   /* Builds at once what a GPU would build in the background after some hundred steps: a program that runs many launches
    * of few items as one (docs/pipeline.md, "Launches"). The steps so far tell which, so call it after some of them,

@@ -22,6 +22,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -132,6 +133,9 @@ public:
   void load(uint32_t world, std::span<const std::byte> snapshot);
 
   /* As those of World. */
+  PlacementReport placement_report() const;
+  bool is_placed() const;
+  bool wait_until_placed(double seconds = std::numeric_limits<double>::infinity());
   void finish();
   void prepare_kernels();
   void set_profiling(bool on);

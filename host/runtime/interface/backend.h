@@ -60,8 +60,13 @@ public:
   /* Builds or looks up what the kernels of a scene need; features: FEATURE_ bits. It is called before run. */
   virtual void prepare(Features features, const std::vector<Kernel> &kernels) = 0;
   /* Whether prepare() would find all of it built; if not, a thread starts to build it, unless one builds already. What
-   * cannot be built counts as built, so that prepare() says why. */
+   * cannot be built counts as built, so that prepare() says why; after that it is tried again. */
   virtual bool is_built_ahead(Features, const std::vector<Kernel> &) { return true; }
+  /* How far the last of these threads has come, in kernels. */
+  struct Progress {
+    size_t built = 0, wanted = 0;
+  };
+  virtual Progress progress() const { return {}; }
   /* counts: the handle of Buffer::counts in this backend's storage. The call may return before the work is done. */
   virtual void run(const Launch &launch, const std::vector<BoundArgument> &arguments, void *counts) = 0;
   /* Launches of at most so many items are better given to run_series, so many at a time; 0: none are. A device runs one
@@ -102,7 +107,7 @@ public:
   };
   virtual std::vector<Compiled> compiled() const { return {}; }
 
-  double build_milliseconds = 0; /* spent in prepare and build_series */
+  double build_milliseconds = 0; /* spent in prepare and build_series, and by threads that built ahead */
   uint64_t launches = 0;         /* made so far; a series that runs as one counts as one */
 };
 

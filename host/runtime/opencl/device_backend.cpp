@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
-#include <future>
 #include <map>
 #include <set>
 #include <sstream>
@@ -19,6 +18,8 @@
 #include <tandem/error.h>
 
 #include "host/runtime/interface/floating_point.h"
+#include "host/runtime/opencl/background_build.h"
+#include "host/runtime/opencl/empty_launch.h"
 #include "host/runtime/opencl/phases.h"
 #include "host/runtime/opencl/program.h"
 #include "host/runtime/opencl/storage.h"
@@ -51,10 +52,6 @@ struct Build {
   std::vector<BuiltKernel> kernels = std::vector<BuiltKernel>(all_kernels());
   Phases phases;
 };
-
-/* The programs of a stage by the features that it reads, and the kernels that each was built for. */
-using ProgramKey = std::pair<Stage, Features>;
-using Programs = std::map<ProgramKey, std::map<Kernel, cl::Program>>;
 
 /* Results do not depend on the size of groups, which tests show by setting it. 0 means that it is not set. */
 size_t group_size_of_tests()
@@ -92,6 +89,7 @@ public:
   void prepare(Features features, const std::vector<Kernel> &kernels) override
   {
     const minicl::ExactFloatingPoint environment; /* inherited by threads that the driver may start */
+    wait_for_what_is_built_ahead(features, kernels);
     const auto start = std::chrono::steady_clock::now();
     current_ = &builds_.try_emplace(features, context_, features, phase_mode_, group_size_).first->second;
     for (const auto &[key, missing] : programs_missing(features, kernels)) build(key, missing, programs_[key]);
@@ -114,24 +112,19 @@ public:
 
   bool is_built_ahead(Features features, const std::vector<Kernel> &kernels) override
   {
-    if (ahead_.valid()) {
-      if (ahead_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return false;
-      try {
-        for (auto &[key, built] : ahead_.get()) programs_[key].merge(built);
-      } catch (const std::exception &) {
-        return true;
-      }
-    }
-    std::map<ProgramKey, std::vector<Kernel>> missing = programs_missing(features, kernels);
+    if (!ahead_.is_running()) take_what_was_built_ahead();
+    MissingPrograms missing = programs_missing(features, kernels);
     if (missing.empty()) return true;
-    ahead_ = std::async(std::launch::async, [this, missing = std::move(missing)] {
-      const minicl::ExactFloatingPoint environment; /* inherited by threads that the driver may start */
-      Programs built;
-      for (const auto &[key, unbuilt] : missing) build(key, unbuilt, built[key]);
-      return built;
+    if (ahead_.is_running()) return false;
+    if (ahead_.has_failed()) return true;
+    ahead_.begin(std::move(missing), [this](const ProgramKey &key, const auto &unbuilt, KernelPrograms &programs) {
+      build(key, unbuilt, programs);
+      for (const auto &[kernel, program] : programs) make_ready_to_launch(kernel, program);
     });
     return false;
   }
+
+  Progress progress() const override { return ahead_.progress(); }
 
   void run(const Launch &launch, const std::vector<BoundArgument> &bound, void *counts) override
   {
@@ -210,10 +203,25 @@ private:
     return {stage, features & readable_[stage]};
   }
 
-  /* Only the requested kernels of a stage's program are compiled (but see part_to_build). */
-  std::map<ProgramKey, std::vector<Kernel>> programs_missing(Features features, const std::vector<Kernel> &kernels)
+  void take_what_was_built_ahead()
   {
-    std::map<ProgramKey, std::vector<Kernel>> missing;
+    const double before = ahead_.milliseconds();
+    for (auto &[key, built] : ahead_.take()) programs_[key].merge(built);
+    build_milliseconds += ahead_.milliseconds() - before;
+  }
+
+  /* Drivers compile one program at a time, so that to build the same here would only take longer. */
+  void wait_for_what_is_built_ahead(Features features, const std::vector<Kernel> &kernels)
+  {
+    if (programs_missing(features, kernels).empty()) return;
+    take_what_was_built_ahead();
+    if (!programs_missing(features, kernels).empty()) ahead_.tell_failure();
+  }
+
+  /* Only the requested kernels of a stage's program are compiled (but see part_to_build). */
+  MissingPrograms programs_missing(Features features, const std::vector<Kernel> &kernels)
+  {
+    MissingPrograms missing;
     for (const Kernel kernel : kernels) {
       const ProgramKey key = key_of(row_of(kernel).stage, features);
       if (!programs_[key].contains(kernel)) missing[key].push_back(kernel);
@@ -222,7 +230,7 @@ private:
   }
 
   /* It may run on another thread, so it changes nothing but `programs`. */
-  void build(const ProgramKey &key, const std::vector<Kernel> &kernels, std::map<Kernel, cl::Program> &programs) const
+  void build(const ProgramKey &key, const std::vector<Kernel> &kernels, KernelPrograms &programs) const
   {
     const auto &[stage, features] = key;
     try {
@@ -258,16 +266,37 @@ private:
     try {
       fail_where_a_test_wants(faults::Site::build, "clCreateKernel");
       cl::Kernel created(program, row.name);
-      const size_t wanted = group_size_                         ? group_size_
-                            : row.execution == Execution::group ? items_per_tile
-                                                                : items_per_group;
-      const size_t most = created.getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(context_.device);
-      built.group_size = std::min(wanted, most);
+      const size_t most = most_items_of_group(created);
+      built.group_size = usual_group_size(row, most);
       built.widest_group = !group_size_ && takes_large_groups(row) ? std::min(items_at_most, most) : built.group_size;
       built.arguments.assign(row.arguments.size() + 3, never_set);
       built.kernel = std::move(created);
     } catch (const cl::Error &error) {
       fail(row, "creation", error.err());
+    }
+  }
+
+  size_t most_items_of_group(const cl::Kernel &kernel) const
+  {
+    return kernel.getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(context_.device);
+  }
+
+  size_t usual_group_size(const KernelRow &row, size_t most) const
+  {
+    const size_t usual = row.execution == Execution::group ? items_per_tile : items_per_group;
+    return std::min(group_size_ ? group_size_ : usual, most);
+  }
+
+  /* It runs on another thread. Nobody knows what kernels of modules do where their range is empty. */
+  void make_ready_to_launch(Kernel kernel, const cl::Program &program) const
+  {
+    const KernelRow &row = row_of(kernel);
+    if (index_of(kernel) >= kernel_count) return;
+    try {
+      cl::Kernel created(program, row.name);
+      launch_over_nothing(context_, created, row, usual_group_size(row, most_items_of_group(created)));
+    } catch (const cl::Error &error) {
+      fail(row, "first launch", error.err());
     }
   }
 
@@ -374,7 +403,7 @@ private:
   bool profiling_ = false;
   std::vector<std::pair<Kernel, cl_event>> pending_;
   std::vector<Time> times_ = std::vector<Time>(all_kernels());
-  std::future<Programs> ahead_; /* the last member, because its thread uses the others */
+  BackgroundBuild ahead_; /* the last member, because its thread uses the others */
 };
 
 } // namespace
