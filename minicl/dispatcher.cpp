@@ -145,7 +145,7 @@ public:
   void prepare(Features, const std::vector<Kernel> &kernels) override
   {
     for (const Kernel kernel : kernels)
-      if (row_of(kernel).execution != Execution::host && !scalar_.at(index_of(kernel)))
+      if (index_of(kernel) < kernel_count && (row_of(kernel).feature & ~built_features()) != 0)
         throw InputError(fmt::format("{}: this library is built without the kernel {} (-DTANDEM_FEATURES=\"{}\")",
                                      name_, row_of(kernel).name, built_option()));
   }
