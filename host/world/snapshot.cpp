@@ -75,7 +75,7 @@ Features get_features(ByteReader &reader)
     const auto known = std::find_if(std::begin(feature_rows), std::end(feature_rows),
                                     [&](const FeatureRow &row) { return row.name == name; });
     if (known == std::end(feature_rows)) reader.fail("it needs a feature that this library does not have");
-    features |= feature_of_index(static_cast<int>(known - std::begin(feature_rows)));
+    features |= known->feature;
   }
   return features;
 }

@@ -23,18 +23,8 @@ namespace {
 /* These follow from the settings, and a batch of worlds is no scene. */
 constexpr Features chosen_features = FEATURE_AXES | FEATURE_EXPANSION | FEATURE_SAMPLED | FEATURE_FIELDS |
                                      FEATURE_SAT_SPLIT | FEATURE_HILL_CLIMBING | FEATURE_CUBE_MAP |
-                                     FEATURE_SUBSTEP_WARM_START | FEATURE_WORLDS;
-
-struct FeatureRow {
-  const char *name;
-  Features feature;
-};
-
-constexpr FeatureRow feature_rows[] = {
-#define FEATURE(name, what) {#name, FEATURE_##name},
-#include "shared/features.def"
-#undef FEATURE
-};
+                                     FEATURE_SUBSTEP_WARM_START | FEATURE_WORLDS | FEATURE_PGS | FEATURE_NNCG |
+                                     FEATURE_XPBD | FEATURE_AVBD;
 
 /* The feature, and those without whose buffers its kernels could not run. */
 Features with_needs(Features feature)

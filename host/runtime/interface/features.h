@@ -22,10 +22,11 @@ constexpr Features FEATURE_ALWAYS = 0;
 struct FeatureRow {
   const char *name;
   const char *what; /* brings it in */
+  Features feature;
 };
 
 constexpr FeatureRow feature_rows[] = {
-#define FEATURE(name, what) {#name, what},
+#define FEATURE(name, what) {#name, what, FEATURE_##name},
 #include "shared/features.def"
 #undef FEATURE
 };
