@@ -12,8 +12,8 @@ set(TANDEM_FEATURES "" CACHE STRING
 
 # Groups: what scenes of these shapes need under the settings by default, on any materials but rolling ones. Kinds of
 # bodies (LOCKS, CONTINUOUS ...), settings (EVENTS, SAT_SPLIT, XPBD ...) and WORLDS are asked for by name.
-set(feature_group_spheres SPHERE_SPHERE SPHERE_HALF_SPACE FRICTION RESTITUTION)
-set(feature_group_boxes BOX_BOX BOX_HALF_SPACE SEVERAL_POINTS GYROSCOPIC FRICTION RESTITUTION)
+set(feature_group_spheres SPHERE_SPHERE SPHERE_HALF_SPACE FRICTION RESTITUTION SUBSTEP_WARM_START)
+set(feature_group_boxes BOX_BOX BOX_HALF_SPACE SEVERAL_POINTS GYROSCOPIC FRICTION RESTITUTION SUBSTEP_WARM_START)
 set(feature_group_spheres_and_boxes ${feature_group_spheres} ${feature_group_boxes} SPHERE_BOX PAIR_KINDS)
 set(feature_group_convex_shapes ${feature_group_spheres_and_boxes} CONVEX_CONVEX CONVEX_HALF_SPACE CONVEX HULL ROUND
   AXES EXPANSION)
@@ -41,6 +41,11 @@ function(expand_features asked result)
       list(JOIN feature_groups ", " groups)
       # A line that begins with a blank is not broken.
       message(FATAL_ERROR " TANDEM_FEATURES: '${name}' is no feature. Features: ${names}. Groups: ${groups}.")
+    endif()
+  endforeach()
+  foreach(name IN LISTS features) # whose kernels read what CONVEX brings
+    if(name MATCHES "^(HULL|ROUND|TREES|CONTINUOUS|CONVEX_CONVEX|CONVEX_HALF_SPACE)$")
+      list(APPEND features CONVEX)
     endif()
   endforeach()
   set(${result} ${features} PARENT_SCOPE)

@@ -82,6 +82,11 @@ typedef struct {
   BUFFER(solver_delta_pose, float4, delta)                                                                             \
   BUFFER(solver_orientation, float4, orientation)
 
+/* What the colouring of contacts notes at their bodies. */
+#define GROUP_colored_bodies(BUFFER)                                                                                   \
+  BUFFER(body_colors, uint, colors)                                                                                    \
+  BUFFER(body_bid, uint, bid)
+
 /* The calls of a program, sorted by body. */
 #define GROUP_commands(BUFFER)                                                                                         \
   BUFFER(command_start, uint, start)                                                                                   \
@@ -103,6 +108,9 @@ typedef struct {
 typedef struct {
   GROUP_blocks(READ_MEMBER)
 } read_blocks;
+typedef struct {
+  GROUP_colored_bodies(WRITE_MEMBER)
+} write_colored_bodies;
 
 /* --- broadphase ------------------------------------------------------------------------------------------- */
 /* The nodes of broadphase/hierarchy.h: boxes, links, and the bodies of the leaves. */
@@ -297,6 +305,11 @@ typedef struct {
   BUFFER(cached_b, uint, b)                                                                                            \
   BUFFER(cached_touching, uint, touching)
 
+/* The iterates and the direction of solve/nncg.h. */
+#define GROUP_nncg_rows(BUFFER)                                                                                        \
+  BUFFER(nncg_impulse, float4, impulse)                                                                                \
+  BUFFER(nncg_direction, float4, direction)
+
 /* The iterates of solve/mass_split.h. */
 #define GROUP_iterates(BUFFER)                                                                                         \
   BUFFER(split_previous_normal, float4, previous_normal)                                                               \
@@ -319,6 +332,9 @@ typedef struct {
   BUFFER(cached_normal_impulse, float4, normal_impulse)                                                                \
   BUFFER(cached_friction_impulse, float4, friction_impulse)
 
+typedef struct {
+  GROUP_nncg_rows(WRITE_MEMBER)
+} write_nncg_rows;
 typedef struct {
   GROUP_constraints(WRITE_MEMBER)
 } write_constraints;

@@ -41,7 +41,7 @@ struct StepPlan {
   uint32_t colors = 16; /* up to COLOR_LIMIT + 1: the overflow constraints */
   uint32_t rounds = 16;
   SettledColors settled;
-  bool apart = false;     /* no bounds have overlapped for so long that only the broadphase looks whether they do now */
+  bool apart = false;     /* no pair was found for so long that a step looks for pairs alone */
   SubstepChoice substeps; /* if the world chooses them itself */
   uint32_t hits = 0;      /* that a cast has left on the device for kernels of modules */
   std::array<uint32_t, COUNT_TOTAL> known{}; /* counts after the last step */

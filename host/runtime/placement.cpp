@@ -39,6 +39,9 @@ void validate(const Placement &placement)
     throw InputError(fmt::format("placement auto on {}: only backends that are exact can be chosen by their times, "
                                  "because results must not depend on them",
                                  placement.on));
+  if (placement.automatic && placement.start == Start::on_cpu)
+    throw InputError(
+        fmt::format("placement auto on {}: it starts on the CPU by itself; leave the start out", placement.on));
   if (placement.start == Start::on_cpu && placement.allow_inexact)
     throw InputError(
         fmt::format("placement on {}: only on backends that are exact can a world start on the CPU, because "

@@ -120,9 +120,11 @@ void note_shapes(Recorder &recorder)
 
 } // namespace
 
-/* Records the kernels and buffers of the overflow constraints only once there are some. */
+/* Records the kernels and buffers of the overflow constraints only once there are some; those of contacts always, even
+ * where steps look for pairs alone, because the next step may find some. */
 void World::Implementation::record_kernels()
 {
+  plan.apart = false;
   StepPlan all = plan;
   all.colors = std::max(plan.colors, COLOR_LIMIT);
   all.substeps.starts = all.substeps.automatic;

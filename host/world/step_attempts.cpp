@@ -78,6 +78,7 @@ void World::Implementation::check_lost() const
 /* A step in which nothing moves launches nothing. */
 void World::Implementation::sleep_on()
 {
+  if (backends.is_waiting()) place_again();
   ++statistics.steps;
   idle = true;
   sleep_events.clear();
@@ -96,6 +97,7 @@ void World::Implementation::check_limits(const StepLimits &limits) const
   const bool overflows = (known[COUNT_STATUS] & lacks_pairs) != 0, goes_on = (known[COUNT_STATUS] & STATUS_ROUNDS) != 0;
   if (overflows) check(candidates_overflow() ? "at least " : "", pairs_needed(), limits.pairs, "pairs");
   if (overflows) return;
+  if (goes_on && (plan.apart || plan.rounds == 0)) return; /* it coloured nothing, whatever is needed */
   check("", known[COUNT_PAIRS], limits.pairs, "pairs");
   check(goes_on ? "at least " : "", known[COUNT_ROUNDS] + (goes_on ? 1 : 0), limits.rounds, "rounds of colouring");
   if (goes_on) return;

@@ -30,7 +30,7 @@ SHARED mask state_is_finite(read_bodies bodies, item_index i)
 SHARED void prepare_bodies_item(GLOBAL const Parameters *parameters, GLOBAL const float4 *body_mass, read_bodies bodies,
                                 GLOBAL uint *counts, GLOBAL float4 *solver_velocity, GLOBAL float4 *solver_delta_pose,
                                 GLOBAL float4 *warm_start_impulse, GLOBAL float4 *solver_inertia,
-                                GLOBAL float4 *solver_orientation, GLOBAL uint *body_colors, GLOBAL uint *body_bid,
+                                GLOBAL float4 *solver_orientation, write_colored_bodies colored_bodies,
                                 GLOBAL uint *body_falls, item_index i)
 {
   spatial_velocity m = load_velocity(bodies.velocity, i);
@@ -47,10 +47,10 @@ SHARED void prepare_bodies_item(GLOBAL const Parameters *parameters, GLOBAL cons
   store_inertia(solver_inertia, i,
                 rotate_diagonal(rotation_of(quat_from(orientation)), xyz(load_float4(body_mass, i * 2u))));
   store_float4(solver_orientation, i, orientation);
-  store_uint(body_colors, i * 2u, 0u);
-  store_uint(body_colors, i * 2u + 1u, 0u);
-  store_uint(body_bid, i * 2u, 0u);
-  store_uint(body_bid, i * 2u + 1u, 0u);
+  store_uint(colored_bodies.colors, i * 2u, 0u);
+  store_uint(colored_bodies.colors, i * 2u + 1u, 0u);
+  store_uint(colored_bodies.bid, i * 2u, 0u);
+  store_uint(colored_bodies.bid, i * 2u + 1u, 0u);
   store_uint(body_falls, i, 1u);
 }
 

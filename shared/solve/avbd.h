@@ -134,8 +134,7 @@ SHARED void avbd_prepare_item(GLOBAL const Parameters *parameters, GLOBAL const 
                               GLOBAL const uint *pair_cached, GLOBAL const uint *manifold_feature,
                               GLOBAL const uint *cached_color, GLOBAL const uint *cached_feature,
                               GLOBAL const float4 *cached_penalty, read_patches patches, GLOBAL const uint *counts,
-                              GLOBAL float4 *constraint_normal_impulse, GLOBAL float4 *constraint_friction_impulse,
-                              GLOBAL float4 *constraint_penalty, item_index i)
+                              write_duals duals, item_index i)
 {
   point_planes planes = planes_of(counts);
   uint_lanes pair = load_uint(constraint_pair, i), cached = load_uint(pair_cached, pair),
@@ -149,19 +148,17 @@ SHARED void avbd_prepare_item(GLOBAL const Parameters *parameters, GLOBAL const 
   for (uint k = 0; k < 4u; ++k)
     penalty[k] = kept_penalty(load_arm_of_b(patches.points, planes, k, i).w,
                               choose(is_cached, cached_impulse(feature, k, old_feature, old), (real)R(0.0)));
-  store_float4(constraint_penalty, i * 2u, make_vec4(penalty[0], penalty[1], penalty[2], penalty[3]));
+  store_float4(duals.penalty, i * 2u, make_vec4(penalty[0], penalty[1], penalty[2], penalty[3]));
   store_float4(
-      constraint_penalty, i * 2u + 1u,
+      duals.penalty, i * 2u + 1u,
       make_vec4(kept_penalty(load_float4(patches.center, i).w, choose(is_cached, old_friction.x, (real)R(0.0))),
                 kept_penalty(load_float4(patches.center, planes.stride + i).w,
                              choose(is_cached, old_friction.y, (real)R(0.0))),
                 R(0.0), R(0.0)));
   real kept = AVBD_ALPHA * AVBD_GAMMA;
-  vec4 impulse = load_float4(constraint_normal_impulse, i),
-       friction = load_friction(parameters, constraint_friction_impulse, i);
-  store_float4(constraint_normal_impulse, i,
-               make_vec4(kept * impulse.x, kept * impulse.y, kept * impulse.z, kept * impulse.w));
-  store_friction(parameters, constraint_friction_impulse, i,
+  vec4 impulse = load_float4(duals.normal, i), friction = load_friction(parameters, duals.friction, i);
+  store_float4(duals.normal, i, make_vec4(kept * impulse.x, kept * impulse.y, kept * impulse.z, kept * impulse.w));
+  store_friction(parameters, duals.friction, i,
                  make_vec4(kept * friction.x, kept * friction.y, kept * friction.z, friction.w));
 }
 

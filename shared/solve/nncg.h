@@ -87,22 +87,23 @@ SHARED void nncg_advance_item(GLOBAL const Parameters *parameters, read_contacts
                               GLOBAL const float4 *solver_inertia, GLOBAL const float4 *solver_delta_pose,
                               GLOBAL const memory_real *nncg_state, GLOBAL const uint *counts,
                               GLOBAL float4 *constraint_normal_impulse, GLOBAL float4 *constraint_friction_impulse,
-                              GLOBAL float4 *nncg_impulse, GLOBAL float4 *nncg_direction,
-                              GLOBAL float4 *solver_velocity, item_index i)
+                              write_nncg_rows nncg_rows, GLOBAL float4 *solver_velocity, item_index i)
 {
   uint stride = counts[CAPACITY_PAIRS];
   real beta = nncg_state[NNCG_BETA];
   vec4 normal_impulses = load_float4(constraint_normal_impulse, i),
        friction = load_friction(parameters, constraint_friction_impulse, i);
-  vec4 normal_step = scale4(load_float4(nncg_direction, i), beta),
-       friction_step = scale4(load_friction(parameters, nncg_direction, stride + i), beta);
-  store_float4(nncg_direction, i, add4(normal_step, change_between(load_float4(nncg_impulse, i), normal_impulses)));
-  store_friction(parameters, nncg_direction, stride + i,
-                 add4(friction_step, change_between(load_friction(parameters, nncg_impulse, stride + i), friction)));
+  vec4 normal_step = scale4(load_float4(nncg_rows.direction, i), beta),
+       friction_step = scale4(load_friction(parameters, nncg_rows.direction, stride + i), beta);
+  store_float4(nncg_rows.direction, i,
+               add4(normal_step, change_between(load_float4(nncg_rows.impulse, i), normal_impulses)));
+  store_friction(
+      parameters, nncg_rows.direction, stride + i,
+      add4(friction_step, change_between(load_friction(parameters, nncg_rows.impulse, stride + i), friction)));
   normal_impulses = add4(normal_impulses, normal_step);
   friction = add4(friction, friction_step);
-  store_float4(nncg_impulse, i, normal_impulses);
-  store_friction(parameters, nncg_impulse, stride + i, friction);
+  store_float4(nncg_rows.impulse, i, normal_impulses);
+  store_friction(parameters, nncg_rows.impulse, stride + i, friction);
   store_float4(constraint_normal_impulse, i, normal_impulses);
   store_friction(parameters, constraint_friction_impulse, i, friction);
 

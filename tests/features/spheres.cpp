@@ -68,7 +68,7 @@ BodyProperties locked()
 TEST_CASE("a library for spheres has the kernels of its features, and no others")
 {
   CHECK(built_features() == (FEATURE_SPHERE_SPHERE | FEATURE_SPHERE_HALF_SPACE | FEATURE_FRICTION |
-                             FEATURE_RESTITUTION | FEATURE_WORLDS | FEATURE_XPBD));
+                             FEATURE_RESTITUTION | FEATURE_SUBSTEP_WARM_START | FEATURE_WORLDS | FEATURE_XPBD));
   for (size_t k = 0; k < kernel_count; ++k) {
     const KernelRow &row = row_of(kernel_at(k));
     if (row.execution == Execution::host) continue;
@@ -162,7 +162,7 @@ TEST_CASE("a library for spheres says in its plan what it is built for")
   CHECK(plan.status == 0);
   CHECK_THAT(plan.out,
              ContainsSubstring("library: built for TANDEM_FEATURES=\"spheres;WORLDS;XPBD\"; for such scenes alone: "
-                               "-DTANDEM_FEATURES=\"SPHERE_SPHERE;SPHERE_HALF_SPACE;FRICTION\"\n"));
+                               "-DTANDEM_FEATURES=\"SPHERE_SPHERE;SPHERE_HALF_SPACE;FRICTION;SUBSTEP_WARM_START\"\n"));
   CHECK_THAT(command("plan spheres:n=2 --on serial").out, ContainsSubstring("library: built for all features; "));
 }
 

@@ -23,6 +23,7 @@ namespace tandem::start_on_cpu {
 namespace {
 
 using namespace parity;
+using Catch::Matchers::ContainsSubstring;
 
 constexpr int all_builds = 1 << 30;
 std::atomic<int> builds_let_through{all_builds};
@@ -156,6 +157,35 @@ TEST_CASE("start on the CPU: devices that may be inexact are refused, because th
   World world(load_scene(scene_text), {}, on_cpu_at_first("tbb"));
   CHECK(world.is_placed());
   CHECK_THROWS_AS(world.place(inexact), InputError);
+}
+
+TEST_CASE("start on the CPU: an automatic placement, which does so by itself, takes no start")
+{
+  Placement automatic = on_cpu_at_first("tbb");
+  automatic.automatic = true;
+  CHECK_THROWS_WITH(World(load_scene(scene_text), {}, automatic), ContainsSubstring("it starts on the CPU by itself"));
+}
+
+TEST_CASE("start on the CPU: a world in which nothing moves is placed, too")
+{
+  require_pocl();
+  const Gate gate;
+  Settings settings;
+  settings.sleeping = true;
+  World world(load_scene("box-stack:n=1"), settings, on_cpu_at_first());
+  const OpenAtLast opened;
+  for (int step = 0; step < 60; ++step) world.step();
+  REQUIRE(world.statistics().asleep == 1);
+  CHECK_FALSE(world.is_placed());
+  Gate::open();
+  for (int step = 0; step < 60000 && !world.is_placed(); ++step) {
+    world.step();
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  CHECK(world.is_placed());
+  World serial(load_scene("box-stack:n=1"), settings, {"serial", {}});
+  for (int step = 0; step < 60; ++step) serial.step();
+  CHECK(world.body_hash() == serial.body_hash());
 }
 
 TEST_CASE("start on the CPU: a build that fails is told in one line, once, and is tried again")

@@ -2,14 +2,15 @@
 #include "tools/bench/sizes.h"
 
 #include <algorithm>
-#include <cmath>
-#include <fstream>
 #include <set>
 
 #include <fmt/format.h>
 
 #include <tandem/load_scene.h>
 
+#include "host/base/printable.h"
+#include "host/io/input_file.h"
+#include "host/io/json/reader.h"
 #include "tools/command/progress.h"
 #include "tools/plot/chart.h"
 
@@ -18,6 +19,7 @@ namespace {
 
 constexpr uint64_t sides[] = {2, 5, 10, 20, 40, 100, 160};
 constexpr uint64_t steps = 120;
+constexpr double most_depth = 1e6; /* m, which a file may state */
 
 uint64_t cube(uint64_t side) { return side * side * side; }
 
@@ -49,6 +51,11 @@ std::set<uint64_t> sizes_of(const std::vector<SizesRun> &runs)
   return sizes;
 }
 
+std::string millimetres(const std::optional<double> &metres, int digits)
+{
+  return metres ? fmt::format("{:.{}f}", *metres * 1e3, digits) : "-";
+}
+
 std::string cell_text(const SizeTime *time) { return time ? fmt::format("{:.3f}", time->milliseconds.median) : "-"; }
 
 /* Nanoseconds a box; penetration, mm: the most, the mean. */
@@ -56,21 +63,34 @@ std::vector<std::string> figures_of(const SizeTime *time)
 {
   if (!time) return {"-", "-", "-"};
   return {fmt::format("{:.1f}", 1e6 * time->milliseconds.median / static_cast<double>(time->bodies)),
-          fmt::format("{:.2f}", time->deepest * 1e3), fmt::format("{:.3f}", time->mean_depth * 1e3)};
+          millimetres(time->deepest, 2), millimetres(time->mean_depth, 3)};
 }
 
-/* What a file leaves out of a figure that it need not have is 0, and shown as absent. */
-SizeTime size_of_json(const Json &row)
+double above_zero(const JsonValue &value)
+{
+  const double number = value.precise_number();
+  if (!(number > 0)) value.fail("must be above 0");
+  return number;
+}
+
+std::optional<double> depth_of(const JsonValue &row, const char *key)
+{
+  const std::optional<JsonValue> value = row.find(key);
+  if (!value) return {};
+  const double depth = value->precise_number();
+  if (depth < 0 || depth > most_depth) value->fail(fmt::format("must be 0 to {} m", most_depth));
+  return depth;
+}
+
+SizeTime size_of_json(const JsonValue &row)
 {
   SizeTime time;
-  time.bodies = row.at("bodies").get<uint64_t>();
-  time.milliseconds.median = row.at("ms").at("median").get<double>();
-  time.milliseconds.minimum = row.at("ms").value("min", time.milliseconds.median);
-  time.milliseconds.maximum = row.at("ms").value("max", time.milliseconds.median);
-  time.deepest = row.value("max_penetration", 0.0);
-  time.mean_depth = row.value("mean_penetration", 0.0);
-  if (time.bodies == 0 || !(time.milliseconds.median > 0) || !std::isfinite(time.milliseconds.median))
-    throw InputError("bodies and ms.median must be above 0");
+  time.bodies = row.member("bodies").long_unsigned_integer();
+  if (time.bodies == 0) row.member("bodies").fail("must be above 0");
+  const JsonValue milliseconds = row.member("ms");
+  time.milliseconds.median = above_zero(milliseconds.member("median"));
+  time.deepest = depth_of(row, "max_penetration");
+  time.mean_depth = depth_of(row, "mean_penetration");
   return time;
 }
 
@@ -78,9 +98,9 @@ ChartSeries series_of(const SizesRun &run)
 {
   ChartSeries series{run.name};
   for (const SizeTime &time : run.sizes) {
-    const std::string note = time.deepest > 0 ? fmt::format("penetration {:.3g} mm at most, {:.3g} mm on average",
-                                                            time.deepest * 1e3, time.mean_depth * 1e3)
-                                              : "";
+    const std::string note = time.deepest ? fmt::format("penetration {} mm at most, {} mm on average",
+                                                        millimetres(time.deepest, 2), millimetres(time.mean_depth, 3))
+                                          : "";
     series.points.push_back({static_cast<double>(time.bodies), time.milliseconds.median, note});
   }
   return series;
@@ -98,16 +118,13 @@ std::vector<SizeTime> bench_sizes(const Placement &placement, uint64_t most)
 
 SizesRun read_sizes(const std::string &path)
 {
-  std::ifstream file(path);
-  if (!file) throw InputError(fmt::format("--beside: {} cannot be read", path));
-  try {
-    const Json json = Json::parse(file);
-    SizesRun run{json.at("name").get<std::string>(), {}};
-    for (const Json &row : json.at("sizes")) run.sizes.push_back(size_of_json(row));
-    return run;
-  } catch (const std::exception &error) {
-    throw InputError(fmt::format("--beside: {} is no JSON of bench sizes: {}", path, error.what()));
-  }
+  const std::string where = "--beside " + path;
+  const JsonDocument document = parse_json(read_file(path), where);
+  const JsonValue json(document.value(), where, "", JsonFloats::numbers);
+  SizesRun run{printable(json.member("name").text()), {}};
+  const JsonValue sizes = json.member("sizes");
+  for (size_t k = 0; k < sizes.array_size(); ++k) run.sizes.push_back(size_of_json(sizes.element(k)));
+  return run;
 }
 
 std::string sizes_text(const std::vector<SizesRun> &runs)
@@ -131,8 +148,8 @@ Json sizes_json(const SizesRun &run)
   for (const SizeTime &time : run.sizes)
     sizes.push_back({{"bodies", time.bodies},
                      {"ms", spread_json(time.milliseconds)},
-                     {"max_penetration", time.deepest},
-                     {"mean_penetration", time.mean_depth}});
+                     {"max_penetration", *time.deepest},
+                     {"mean_penetration", *time.mean_depth}});
   return {{"what", "sizes"}, {"name", run.name}, {"sizes", sizes}};
 }
 

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,10 +21,9 @@
 namespace tandem {
 
 struct SizeTime {
-  uint64_t bodies = 0; /* that move */
-  Spread milliseconds; /* of a step */
-  double deepest = 0;  /* penetration in the end, m: the greatest, and the mean over the contact points */
-  double mean_depth = 0;
+  uint64_t bodies = 0;                       /* that move */
+  Spread milliseconds;                       /* of a step */
+  std::optional<double> deepest, mean_depth; /* penetration in the end, m: the greatest, the mean over the points */
 };
 
 struct SizesRun {
@@ -41,7 +41,7 @@ SizesRun read_sizes(const std::string &path);
 
 /* The time of each run at each size that one of them has, and the error of the first. */
 std::string sizes_text(const std::vector<SizesRun> &runs);
-Json sizes_json(const SizesRun &run);
+Json sizes_json(const SizesRun &run); /* of one that was made here */
 std::string sizes_chart(const std::vector<SizesRun> &runs);
 
 } // namespace tandem

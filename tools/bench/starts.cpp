@@ -31,10 +31,13 @@ class EmptyCaches {
 public:
   EmptyCaches()
   {
-    std::string pattern = (files::temp_directory_path() / "tandem-starts-XXXXXX").string();
-    if (!mkdtemp(pattern.data()))
-      throw InputError(
-          fmt::format("bench starts: no folder for caches can be made in {}", files::temp_directory_path().string()));
+    std::error_code error;
+    const files::path parent = files::temp_directory_path(error);
+    std::string pattern = (parent / "tandem-starts-XXXXXX").string();
+    if (error || !mkdtemp(pattern.data()))
+      throw InputError(fmt::format("bench starts: no folder for caches can be made in {}; set TMPDIR to one that can "
+                                   "be written",
+                                   error ? "that of TMPDIR" : parent.string()));
     folder_ = pattern;
   }
   ~EmptyCaches()

@@ -21,11 +21,11 @@ std::string start_text(const PlacementReport &report, bool is_placed)
 {
   const PlacementReport::Building &building = report.building;
   if (!is_placed)
-    return fmt::format("all {} steps on tbb: {} of {} kernels were built in {:.1f} s", building.steps_on_cpu,
-                       building.built, building.kernels, building.milliseconds * 1e-3);
+    return fmt::format("all {} steps without the device: {} of {} kernels were built in {:.1f} s",
+                       building.steps_on_cpu, building.built, building.kernels, building.milliseconds * 1e-3);
   if (building.kernels == 0) return fmt::format("on {}, nothing had to be built", report.on);
-  return fmt::format("{} steps on tbb, while {} kernels were built in {:.1f} s; then {}", building.steps_on_cpu,
-                     building.kernels, building.milliseconds * 1e-3, report.on);
+  return fmt::format("{} steps with tbb in its place, while {} kernels were built in {:.1f} s; then {}",
+                     building.steps_on_cpu, building.kernels, building.milliseconds * 1e-3, report.on);
 }
 
 /* Where nobody looks, no other thread builds than without a bar. */

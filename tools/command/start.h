@@ -14,7 +14,7 @@ namespace tandem {
 /* InputError for what is neither "cpu" nor "device". */
 Start start_from(const std::string &text);
 
-/* "38 steps on tbb, while 29 kernels were built in 6.1 s; then cl:0.0" */
+/* "38 steps with tbb in its place, while 29 kernels were built in 6.1 s; then cl:0.0" */
 std::string start_text(const PlacementReport &report, bool is_placed);
 
 /* A bar on a terminal while a world waits for kernels for over a second. */

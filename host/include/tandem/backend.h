@@ -44,9 +44,11 @@ struct Placement {
   bool automatic = false;
   std::function<double()> clock = {}; /* in ms; what the choice reads instead of the machine's, for programs that must
                                          repeat one */
-  /* Whatever is said here, the results are the same. An automatic placement starts on the CPU in any case. */
+  /* Whatever is said here, the results are the same. An automatic placement starts on the CPU by
+   * itself, and is refused with on_cpu. */
   Start start = Start::on_device;
-  /* Called again and again while a call waits for kernels of OpenCL devices, of which so many are built. */
+  /* Called again and again while a world is placed, or waits until it is, of whose kernels for OpenCL devices so many
+   * are built. */
   std::function<void(size_t built, size_t kernels)> while_building = {};
 };
 

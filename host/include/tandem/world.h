@@ -193,7 +193,8 @@ public:
 
   PlacementReport placement_report() const;
   /* False while `tbb` runs kernels that are being built for a device (Placement::start). A step takes them over when
-   * they are ready, and throws what the driver said if it could not build them; the step after that tries again. */
+   * they are ready. If the driver could not build them, the step, or an earlier call that asks for a kernel of the
+   * device, throws what it said; what comes after that tries again. */
   bool is_placed() const;
   /* Waits for these kernels, at most so long, and takes them over; returns is_placed(). Throws as the step would. */
   bool wait_until_placed(double seconds = std::numeric_limits<double>::infinity());

@@ -1,7 +1,10 @@
 /* settled_colors_test.cpp - where contacts keep their colours, a step launches no rounds of colouring and no colour to
  * spare, and what hits such a pile moves it as it would have moved any. */
+#include <functional>
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <tandem/load_scene.h>
 #include <tandem/world.h>
@@ -9,6 +12,7 @@
 #include "host/pipeline/solvers/solvers.h"
 #include "host/pipeline/step.h"
 #include "host/runtime/launcher.h"
+#include "host/runtime/memory.h"
 #include "tests/catch.h"
 
 namespace tandem {
@@ -120,6 +124,68 @@ TEST_CASE("where no bounds have overlapped for long, a step finds pairs alone, a
     CHECK(met);
     CHECK(late < early);
   }
+}
+
+/* Each lays out buffers anew, or finds out anew which kernels and buffers are needed. */
+const std::vector<std::pair<const char *, std::function<void(World &)>>> new_layouts = {
+    {"a body more than there is room for", [](World &world) { world.create_body(box_onto_pile()); }},
+    {"room for pairs", [](World &world) { world.reserve_pairs(5000); }},
+    {"less room",
+     [](World &world) {
+       world.reserve_pairs(5000);
+       world.shrink_to_fit();
+     }},
+    {"the first force", [](World &world) { world.add_force(world.id_of(0), {}); }},
+    {"damping", [](World &world) { world.set_damping(world.id_of(0), 0.1f, 0); }},
+    {"a material that bounces",
+     [](World &world) {
+       Material bouncing;
+       bouncing.restitution = 0.5f;
+       world.set_material(world.id_of(0), world.add_material(bouncing));
+     }},
+};
+
+TEST_CASE("a layout anew while nothing meets keeps the room for contacts to come", "[address]")
+{
+  for (const auto &[what, lay_out] : new_layouts)
+    for (const char *backend : {"serial", "tbb:threads=2,lanes=8"}) {
+      CAPTURE(what, backend);
+      World world(balls_that_meet(), {}, {backend, {}}), other(balls_that_meet(), {}, {"serial", {}});
+      step_world(world, 80);
+      step_world(other, 80);
+      World fresh(other.save(), {"serial", {}}); /* which takes nothing for granted */
+      lay_out(world);
+      lay_out(fresh);
+      CHECK(world.memory().bytes(Buffer::manifold_points) > 0);
+      for (int k = 0; k < 160; ++k) {
+        world.step();
+        fresh.step();
+        REQUIRE(world.state_hash() == fresh.state_hash());
+      }
+      CHECK(world.statistics().steps == 240);
+    }
+}
+
+TEST_CASE("limits of a step that took colours for granted count what is needed, and nothing else")
+{
+  Scene near = balls_that_meet();
+  near.bodies.resize(2);
+  near.shapes = {sphere_shape(0.5f)};
+  for (int k : {0, 1}) {
+    near.bodies[static_cast<size_t>(k)].shape = 0;
+    near.bodies[static_cast<size_t>(k)].linear_velocity = {};
+    near.bodies[static_cast<size_t>(k)].position = {5.0 * k, 0, 0};
+  }
+  World world(near);
+  step_world(world, 80);
+  BodyState beside = world.bodies()[1];
+  beside.position = {0.9, 0.9, 0.9}; /* the boxes overlap, the balls do not touch */
+  world.set_body(1, beside);
+  StepLimits limits;
+  limits.rounds = 0;
+  world.step(limits);
+  CHECK(world.statistics().pairs == 1);
+  CHECK(world.statistics().contacts == 0);
 }
 
 TEST_CASE("a scene that was wrongly taken for settled waits twice as long before it is again")

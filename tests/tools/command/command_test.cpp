@@ -4,6 +4,8 @@
 #include <regex>
 #include <set>
 
+#include <sys/stat.h>
+
 #include "tests/tools/command/command_line.h"
 
 using namespace command_line;
@@ -477,13 +479,24 @@ TEST_CASE("command: bench sizes beside another run, and what it refuses", "[comm
   check_refused("bench sizes --beside /nonexistent/a.json", "/nonexistent/a.json");
   check_refused(line + " --json " + other, "other.json");
   check_refused("bench step --beside " + other, "--beside is of bench sizes");
-  for (const char *text : {"", "[]", R"({"sizes": []})", R"({"name": "x", "sizes": [{"bodies": 8}]})",
-                           R"({"name": "x", "sizes": [{"bodies": 0, "ms": {"median": 1}}]})",
-                           R"({"name": "x", "sizes": [{"bodies": 8, "ms": {"median": 0}}]})"}) {
-    CAPTURE(text);
+  const auto row = [](const std::string &fields) { return "{\"name\": \"x\", \"sizes\": [" + fields + "]}"; };
+  for (const std::string &text :
+       {std::string(), std::string("[]"), std::string(R"({"sizes": []})"), row(R"({"bodies": 8})"),
+        row(R"({"bodies": 0, "ms": {"median": 1}})"), row(R"({"bodies": -5, "ms": {"median": 1}})"),
+        row(R"({"bodies": 8.9, "ms": {"median": 1}})"), row(R"({"bodies": 8, "ms": {"median": 0}})"),
+        row(R"({"bodies": 8, "ms": {"median": 1}, "max_penetration": -5})"),
+        row(R"({"bodies": 8, "ms": {"median": 1}, "mean_penetration": 1e308})"),
+        std::string(100000, '[') + std::string(100000, ']')}) {
+    CAPTURE(text.substr(0, 80));
     std::ofstream(bad) << text;
-    check_refused("bench sizes --n 8 --on serial --beside " + bad, "bad.json is no JSON of bench sizes");
+    check_refused("bench sizes --n 0 --beside " + bad, "bad.json");
   }
+  REQUIRE(mkfifo(scratch.file("pipe").c_str(), 0600) == 0);
+  check_refused("bench sizes --n 0 --beside " + scratch.file("pipe"), "pipe");
+  std::ofstream(bad) << R"({"name": "a\u001b[31m", "sizes": [{"bodies": 8, "ms": {"median": 1}}]})";
+  const std::string escaped = command("bench sizes --n 0 --beside " + bad).out;
+  CHECK(escaped.find("a\\x1b[31m, ms") != std::string::npos);
+  CHECK(escaped.find("0.00") == std::string::npos); /* no penetration is said */
 }
 
 TEST_CASE("command: bench broadphase of some, and what it refuses", "[command]")
