@@ -152,8 +152,8 @@ SHARED void store_uint_if(mask m, uint *to, item_index i, uint_lanes value)
 }
 
 /* A record is loaded or stored whole, 16 bytes a lane, and transposed in registers. */
-SHARED vec4 load_float4(const float4 *from, item_index i) { return transpose(load_in_order(&from[i.first].x)); }
-SHARED void store_float4(float4 *to, item_index i, vec4 value) { store_in_order(&to[i.first].x, transpose(value)); }
+SHARED vec4 load_float4(const float4 *from, item_index i) { return transpose(load_in_order(from + i.first)); }
+SHARED void store_float4(float4 *to, item_index i, vec4 value) { store_in_order(to + i.first, transpose(value)); }
 
 struct lane_numbers {
   uint32_t of[width];
@@ -167,15 +167,15 @@ SHARED lane_numbers numbers_of(uint_lanes i)
 SHARED vec4 load_float4(const float4 *from, uint_lanes i)
 {
   const lane_numbers at = numbers_of(i);
-  const float *lanes[width];
-  for (int lane = 0; lane < width; ++lane) lanes[lane] = &from[at.of[lane]].x;
+  const float4 *lanes[width];
+  for (int lane = 0; lane < width; ++lane) lanes[lane] = from + at.of[lane];
   return transpose(gather_quarters(lanes));
 }
 SHARED void store_float4(float4 *to, uint_lanes i, vec4 value)
 {
   const lane_numbers at = numbers_of(i);
-  float *lanes[width];
-  for (int lane = 0; lane < width; ++lane) lanes[lane] = &to[at.of[lane]].x;
+  float4 *lanes[width];
+  for (int lane = 0; lane < width; ++lane) lanes[lane] = to + at.of[lane];
   scatter_quarters(lanes, transpose(value));
 }
 /* Lanes that must not write store to a spare float4, because many lanes and threads share a body that cannot move. */
@@ -183,8 +183,8 @@ SHARED void store_float4_if(mask m, float4 *to, uint_lanes i, vec4 value)
 {
   const lane_numbers at = numbers_of(i);
   float4 spare;
-  float *lanes[width];
-  for (int lane = 0; lane < width; ++lane) lanes[lane] = m.v[lane] ? &to[at.of[lane]].x : &spare.x;
+  float4 *lanes[width];
+  for (int lane = 0; lane < width; ++lane) lanes[lane] = m.v[lane] ? to + at.of[lane] : &spare;
   scatter_quarters(lanes, transpose(value));
 }
 SHARED void store_float4_if(mask m, float4 *to, item_index i, vec4 value)

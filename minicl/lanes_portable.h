@@ -30,23 +30,23 @@ SHARED bool all_of(mask m) { return !any_of(!m); }
 struct quarters {
   float of[width][4];
 };
-SHARED quarters gather_quarters(const float *const *lanes)
+SHARED quarters gather_quarters(const float4 *const *lanes)
 {
   quarters q;
   for (int lane = 0; lane < width; ++lane) __builtin_memcpy(q.of[lane], lanes[lane], sizeof q.of[lane]);
   return q;
 }
-SHARED void scatter_quarters(float *const *lanes, quarters q)
+SHARED void scatter_quarters(float4 *const *lanes, quarters q)
 {
   for (int lane = 0; lane < width; ++lane) __builtin_memcpy(lanes[lane], q.of[lane], sizeof q.of[lane]);
 }
-SHARED quarters load_in_order(const float *from)
+SHARED quarters load_in_order(const float4 *from)
 {
   quarters q;
   __builtin_memcpy(&q, from, sizeof q);
   return q;
 }
-SHARED void store_in_order(float *to, quarters q) { __builtin_memcpy(to, &q, sizeof q); }
+SHARED void store_in_order(float4 *to, quarters q) { __builtin_memcpy(to, &q, sizeof q); }
 SHARED vec4 transpose(quarters q)
 {
   vec4 r;

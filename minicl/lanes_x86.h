@@ -15,19 +15,19 @@ SHARED bool any_of(mask m) { return _mm512_movepi32_mask((__m512i)m.v) != 0; }
 SHARED bool all_of(mask m) { return _mm512_movepi32_mask((__m512i)m.v) == 0xffff; }
 
 typedef __m512 quarter_rows; /* four records: of lanes k, k + 4, k + 8, k + 12 */
-SHARED quarter_rows load_quarter(const float *const *lanes, int k)
+SHARED quarter_rows load_quarter(const float4 *const *lanes, int k)
 {
-  __m512 rows = _mm512_castps128_ps512(_mm_load_ps(lanes[k]));
-  rows = _mm512_insertf32x4(rows, _mm_load_ps(lanes[k + 4]), 1);
-  rows = _mm512_insertf32x4(rows, _mm_load_ps(lanes[k + 8]), 2);
-  return _mm512_insertf32x4(rows, _mm_load_ps(lanes[k + 12]), 3);
+  __m512 rows = _mm512_castps128_ps512(_mm_load_ps(&lanes[k]->x));
+  rows = _mm512_insertf32x4(rows, _mm_load_ps(&lanes[k + 4]->x), 1);
+  rows = _mm512_insertf32x4(rows, _mm_load_ps(&lanes[k + 8]->x), 2);
+  return _mm512_insertf32x4(rows, _mm_load_ps(&lanes[k + 12]->x), 3);
 }
-SHARED void store_quarter(float *const *lanes, int k, quarter_rows rows)
+SHARED void store_quarter(float4 *const *lanes, int k, quarter_rows rows)
 {
-  _mm_store_ps(lanes[k], _mm512_castps512_ps128(rows));
-  _mm_store_ps(lanes[k + 4], _mm512_extractf32x4_ps(rows, 1));
-  _mm_store_ps(lanes[k + 8], _mm512_extractf32x4_ps(rows, 2));
-  _mm_store_ps(lanes[k + 12], _mm512_extractf32x4_ps(rows, 3));
+  _mm_store_ps(&lanes[k]->x, _mm512_castps512_ps128(rows));
+  _mm_store_ps(&lanes[k + 4]->x, _mm512_extractf32x4_ps(rows, 1));
+  _mm_store_ps(&lanes[k + 8]->x, _mm512_extractf32x4_ps(rows, 2));
+  _mm_store_ps(&lanes[k + 12]->x, _mm512_extractf32x4_ps(rows, 3));
 }
 SHARED quarter_rows unpack_low(quarter_rows a, quarter_rows b) { return _mm512_unpacklo_ps(a, b); }
 SHARED quarter_rows unpack_high(quarter_rows a, quarter_rows b) { return _mm512_unpackhi_ps(a, b); }
@@ -40,14 +40,14 @@ SHARED bool any_of(mask m) { return _mm256_movemask_ps((__m256)m.v) != 0; }
 SHARED bool all_of(mask m) { return _mm256_movemask_ps((__m256)m.v) == 0xff; }
 
 typedef __m256 quarter_rows; /* two records: of lanes k and k + 4 */
-SHARED quarter_rows load_quarter(const float *const *lanes, int k)
+SHARED quarter_rows load_quarter(const float4 *const *lanes, int k)
 {
-  return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_load_ps(lanes[k])), _mm_load_ps(lanes[k + 4]), 1);
+  return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_load_ps(&lanes[k]->x)), _mm_load_ps(&lanes[k + 4]->x), 1);
 }
-SHARED void store_quarter(float *const *lanes, int k, quarter_rows rows)
+SHARED void store_quarter(float4 *const *lanes, int k, quarter_rows rows)
 {
-  _mm_store_ps(lanes[k], _mm256_castps256_ps128(rows));
-  _mm_store_ps(lanes[k + 4], _mm256_extractf128_ps(rows, 1));
+  _mm_store_ps(&lanes[k]->x, _mm256_castps256_ps128(rows));
+  _mm_store_ps(&lanes[k + 4]->x, _mm256_extractf128_ps(rows, 1));
 }
 SHARED quarter_rows unpack_low(quarter_rows a, quarter_rows b) { return _mm256_unpacklo_ps(a, b); }
 SHARED quarter_rows unpack_high(quarter_rows a, quarter_rows b) { return _mm256_unpackhi_ps(a, b); }
@@ -60,8 +60,8 @@ SHARED bool any_of(mask m) { return _mm_movemask_ps((__m128)m.v) != 0; }
 SHARED bool all_of(mask m) { return _mm_movemask_ps((__m128)m.v) == 0xf; }
 
 typedef __m128 quarter_rows; /* one record */
-SHARED quarter_rows load_quarter(const float *const *lanes, int k) { return _mm_load_ps(lanes[k]); }
-SHARED void store_quarter(float *const *lanes, int k, quarter_rows rows) { _mm_store_ps(lanes[k], rows); }
+SHARED quarter_rows load_quarter(const float4 *const *lanes, int k) { return _mm_load_ps(&lanes[k]->x); }
+SHARED void store_quarter(float4 *const *lanes, int k, quarter_rows rows) { _mm_store_ps(&lanes[k]->x, rows); }
 SHARED quarter_rows unpack_low(quarter_rows a, quarter_rows b) { return _mm_unpacklo_ps(a, b); }
 SHARED quarter_rows unpack_high(quarter_rows a, quarter_rows b) { return _mm_unpackhi_ps(a, b); }
 SHARED quarter_rows halves_low(quarter_rows a, quarter_rows b) { return _mm_movelh_ps(a, b); }
@@ -105,11 +105,11 @@ SHARED uint_lanes load_uint(const uint *from, uint_lanes i)
 struct quarters {
   quarter_rows a, b, c, d; /* of lanes 0, 1, 2, 3 and every fourth after each */
 };
-SHARED quarters gather_quarters(const float *const *lanes)
+SHARED quarters gather_quarters(const float4 *const *lanes)
 {
   return {load_quarter(lanes, 0), load_quarter(lanes, 1), load_quarter(lanes, 2), load_quarter(lanes, 3)};
 }
-SHARED void scatter_quarters(float *const *lanes, quarters q)
+SHARED void scatter_quarters(float4 *const *lanes, quarters q)
 {
   store_quarter(lanes, 0, q.a);
   store_quarter(lanes, 1, q.b);
@@ -143,45 +143,45 @@ SHARED quarters deal(__m512 a, __m512 b, __m512 c, __m512 d)
   return {_mm512_shuffle_f32x4(ab01, cd01, 0x88), _mm512_shuffle_f32x4(ab01, cd01, 0xdd),
           _mm512_shuffle_f32x4(ab23, cd23, 0x88), _mm512_shuffle_f32x4(ab23, cd23, 0xdd)};
 }
-SHARED quarters load_in_order(const float *from)
+SHARED quarters load_in_order(const float4 *from)
 {
-  return deal(_mm512_loadu_ps(from), _mm512_loadu_ps(from + 16), _mm512_loadu_ps(from + 32),
-              _mm512_loadu_ps(from + 48));
+  return deal(_mm512_loadu_ps(&from->x), _mm512_loadu_ps(&from[4].x), _mm512_loadu_ps(&from[8].x),
+              _mm512_loadu_ps(&from[12].x));
 }
 /* Dealing is a transpose of 4 x 4 records, so it is its own inverse. */
-SHARED void store_in_order(float *to, quarters q)
+SHARED void store_in_order(float4 *to, quarters q)
 {
   const quarters whole = deal(q.a, q.b, q.c, q.d);
-  _mm512_storeu_ps(to, whole.a);
-  _mm512_storeu_ps(to + 16, whole.b);
-  _mm512_storeu_ps(to + 32, whole.c);
-  _mm512_storeu_ps(to + 48, whole.d);
+  _mm512_storeu_ps(&to->x, whole.a);
+  _mm512_storeu_ps(&to[4].x, whole.b);
+  _mm512_storeu_ps(&to[8].x, whole.c);
+  _mm512_storeu_ps(&to[12].x, whole.d);
 }
 #elif TANDEM_LANES == 8
-SHARED quarters load_in_order(const float *from)
+SHARED quarters load_in_order(const float4 *from)
 {
-  const __m256 r01 = _mm256_loadu_ps(from), r23 = _mm256_loadu_ps(from + 8);
-  const __m256 r45 = _mm256_loadu_ps(from + 16), r67 = _mm256_loadu_ps(from + 24);
+  const __m256 r01 = _mm256_loadu_ps(&from->x), r23 = _mm256_loadu_ps(&from[2].x);
+  const __m256 r45 = _mm256_loadu_ps(&from[4].x), r67 = _mm256_loadu_ps(&from[6].x);
   return {_mm256_permute2f128_ps(r01, r45, 0x20), _mm256_permute2f128_ps(r01, r45, 0x31),
           _mm256_permute2f128_ps(r23, r67, 0x20), _mm256_permute2f128_ps(r23, r67, 0x31)};
 }
-SHARED void store_in_order(float *to, quarters q)
+SHARED void store_in_order(float4 *to, quarters q)
 {
-  _mm256_storeu_ps(to, _mm256_permute2f128_ps(q.a, q.b, 0x20));
-  _mm256_storeu_ps(to + 8, _mm256_permute2f128_ps(q.c, q.d, 0x20));
-  _mm256_storeu_ps(to + 16, _mm256_permute2f128_ps(q.a, q.b, 0x31));
-  _mm256_storeu_ps(to + 24, _mm256_permute2f128_ps(q.c, q.d, 0x31));
+  _mm256_storeu_ps(&to->x, _mm256_permute2f128_ps(q.a, q.b, 0x20));
+  _mm256_storeu_ps(&to[2].x, _mm256_permute2f128_ps(q.c, q.d, 0x20));
+  _mm256_storeu_ps(&to[4].x, _mm256_permute2f128_ps(q.a, q.b, 0x31));
+  _mm256_storeu_ps(&to[6].x, _mm256_permute2f128_ps(q.c, q.d, 0x31));
 }
 #else
-SHARED quarters load_in_order(const float *from)
+SHARED quarters load_in_order(const float4 *from)
 {
-  return {_mm_loadu_ps(from), _mm_loadu_ps(from + 4), _mm_loadu_ps(from + 8), _mm_loadu_ps(from + 12)};
+  return {_mm_loadu_ps(&from->x), _mm_loadu_ps(&from[1].x), _mm_loadu_ps(&from[2].x), _mm_loadu_ps(&from[3].x)};
 }
-SHARED void store_in_order(float *to, quarters q)
+SHARED void store_in_order(float4 *to, quarters q)
 {
-  _mm_storeu_ps(to, q.a);
-  _mm_storeu_ps(to + 4, q.b);
-  _mm_storeu_ps(to + 8, q.c);
-  _mm_storeu_ps(to + 12, q.d);
+  _mm_storeu_ps(&to->x, q.a);
+  _mm_storeu_ps(&to[1].x, q.b);
+  _mm_storeu_ps(&to[2].x, q.c);
+  _mm_storeu_ps(&to[3].x, q.d);
 }
 #endif
