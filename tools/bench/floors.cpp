@@ -11,7 +11,6 @@
 #include <array>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <tandem/load_scene.h>
 #include <tandem/world.h>
@@ -122,6 +121,14 @@ std::string floors_title(const Floors &floors)
                      floors.bodies, floors.pairs, 1e-9 * floors.bytes_per_second, floors.step_milliseconds);
 }
 
+Table table_of(const Floors &floors)
+{
+  Table table(floor_header());
+  for (const StageFloor &floor : floors.stages) table.add(floor_cells(floor));
+  table.add(floor_cells(sum_of(floors.stages)));
+  return table;
+}
+
 } // namespace
 
 uint64_t least_bytes(World &world, const Launch &launch) { return least_bytes(world, counts_of(world), launch); }
@@ -145,20 +152,11 @@ Floors bench_floors(const std::string &scene, const Placement &placement)
   return floors;
 }
 
-std::string floors_text(const Floors &floors)
-{
-  Table table(floor_header());
-  for (const StageFloor &floor : floors.stages) table.add(floor_cells(floor));
-  table.add(floor_cells(sum_of(floors.stages)));
-  return floors_title(floors) + "\n" + table.text("  ");
-}
+std::string floors_text(const Floors &floors) { return floors_title(floors) + "\n" + table_of(floors).text("  "); }
 
 std::string floors_markdown(const Floors &floors)
 {
-  std::string text = fmt::format("{}.\n\n| {} |\n|---|", floors_title(floors), fmt::join(floor_header(), " | "));
-  for (size_t k = 1; k < floor_header().size(); ++k) text += "---:|";
-  for (const StageFloor &floor : floors.stages) text += fmt::format("\n| {} |", fmt::join(floor_cells(floor), " | "));
-  return text + fmt::format("\n| {} |\n", fmt::join(floor_cells(sum_of(floors.stages)), " | "));
+  return floors_title(floors) + ".\n\n" + table_of(floors).markdown();
 }
 
 Json floors_json(const Floors &floors)

@@ -6,7 +6,6 @@
 #include <stdexcept>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <tandem/load_scene.h>
 #include <tandem/world.h>
@@ -114,6 +113,13 @@ Json cost_json(const WorldCost &cost)
           {"step_ms", spread_json(cost.milliseconds)}};
 }
 
+Table table_of(const std::vector<LeftOut> &rows)
+{
+  Table table(left_out_header());
+  for (const LeftOut &row : rows) table.add(left_out_cells(row));
+  return table;
+}
+
 } // namespace
 
 std::vector<std::string> scene_feature_names()
@@ -156,20 +162,9 @@ std::vector<std::string> failures_of(const std::vector<LeftOut> &rows)
   return lines;
 }
 
-std::string left_out_text(const std::vector<LeftOut> &rows)
-{
-  Table table(left_out_header());
-  for (const LeftOut &row : rows) table.add(left_out_cells(row));
-  return table.text("  ");
-}
+std::string left_out_text(const std::vector<LeftOut> &rows) { return table_of(rows).text("  "); }
 
-std::string left_out_markdown(const std::vector<LeftOut> &rows)
-{
-  std::string text = fmt::format("| {} |\n|---|---|", fmt::join(left_out_header(), " | "));
-  for (size_t k = 2; k < left_out_header().size(); ++k) text += "---:|";
-  for (const LeftOut &row : rows) text += fmt::format("\n| {} |", fmt::join(left_out_cells(row), " | "));
-  return text + "\n";
-}
+std::string left_out_markdown(const std::vector<LeftOut> &rows) { return table_of(rows).markdown(2); }
 
 Json left_out_json(const std::vector<LeftOut> &rows)
 {

@@ -113,6 +113,13 @@ Json cost_json(const SceneCost &cost)
           {"contacts", cost.contacts}};
 }
 
+Table table_of(const std::vector<SceneCost> &costs)
+{
+  Table table(header_cells());
+  for (const SceneCost &cost : costs) table.add(cells_of(cost));
+  return table;
+}
+
 } // namespace
 
 std::vector<SceneCost> bench_scenes(const ScenesRequest &request)
@@ -150,20 +157,9 @@ std::vector<std::string> failures_of(const std::vector<SceneCost> &costs)
   return lines;
 }
 
-std::string scenes_text(const std::vector<SceneCost> &costs)
-{
-  Table table(header_cells());
-  for (const SceneCost &cost : costs) table.add(cells_of(cost));
-  return table.text("  ");
-}
+std::string scenes_text(const std::vector<SceneCost> &costs) { return table_of(costs).text("  "); }
 
-std::string scenes_markdown(const std::vector<SceneCost> &costs)
-{
-  std::string text = fmt::format("| {} |\n|---|", fmt::join(header_cells(), " | "));
-  for (size_t k = 1; k < header_cells().size(); ++k) text += "---:|";
-  for (const SceneCost &cost : costs) text += fmt::format("\n| {} |", fmt::join(cells_of(cost), " | "));
-  return text + "\n";
-}
+std::string scenes_markdown(const std::vector<SceneCost> &costs) { return table_of(costs).markdown(); }
 
 Json scenes_json(const std::vector<SceneCost> &costs)
 {

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <tandem/error.h>
 #include <tandem/load_scene.h>
@@ -168,6 +167,13 @@ std::vector<std::string> start_cells(const StartTime &time)
           fmt::format("{:.1f}", time.longest_step)};
 }
 
+Table table_of(const std::vector<StartTime> &starts)
+{
+  Table table(start_header());
+  for (const StartTime &time : starts) table.add(start_cells(time));
+  return table;
+}
+
 } // namespace
 
 std::vector<std::string> start_scenes(const std::vector<std::string> &parts)
@@ -204,20 +210,9 @@ std::vector<StartTime> bench_starts(const std::vector<std::string> &scenes, cons
   return starts;
 }
 
-std::string starts_text(const std::vector<StartTime> &starts)
-{
-  Table table(start_header());
-  for (const StartTime &time : starts) table.add(start_cells(time));
-  return table.text("  ");
-}
+std::string starts_text(const std::vector<StartTime> &starts) { return table_of(starts).text("  "); }
 
-std::string starts_markdown(const std::vector<StartTime> &starts)
-{
-  std::string text = fmt::format("| {} |\n|---|---|---|", fmt::join(start_header(), " | "));
-  for (size_t k = 3; k < start_header().size(); ++k) text += "---:|";
-  for (const StartTime &time : starts) text += fmt::format("\n| {} |", fmt::join(start_cells(time), " | "));
-  return text + "\n";
-}
+std::string starts_markdown(const std::vector<StartTime> &starts) { return table_of(starts).markdown(3); }
 
 Json starts_json(const std::vector<StartTime> &starts)
 {

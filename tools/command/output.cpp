@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "host/io/output_file.h"
 
@@ -62,6 +63,14 @@ std::string Table::text(const std::string &indent) const
     text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
   }
   return text;
+}
+
+std::string Table::markdown(size_t left) const
+{
+  std::string text = fmt::format("| {} |\n|", fmt::join(rows_.front(), " | "));
+  for (size_t c = 0; c < rows_.front().size(); ++c) text += c < left ? "---|" : "---:|";
+  for (size_t row = 1; row < rows_.size(); ++row) text += fmt::format("\n| {} |", fmt::join(rows_[row], " | "));
+  return text + "\n";
 }
 
 std::string bytes_text(uint64_t bytes)

@@ -43,6 +43,8 @@ public:
   explicit Table(std::vector<std::string> header, bool right = true) : rows_{std::move(header)}, right_(right) {}
   void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
   std::string text(const std::string &indent = "") const;
+  /* For a page; the columns after the first `left` are right-aligned. */
+  std::string markdown(size_t left = 1) const;
 
 private:
   std::vector<std::vector<std::string>> rows_;
