@@ -84,7 +84,13 @@ public:
 
   const std::string &name() const override { return name_; }
   Storage &storage() override { return storage_; }
-  void finish() override { storage_.wait(); }
+  /* A queue with nothing in it is not waited for: NVIDIA's driver would wait for a compiler that runs beside it. */
+  void finish() override
+  {
+    if (launches == finished_launches_ && !storage_.is_busy()) return;
+    storage_.wait();
+    finished_launches_ = launches;
+  }
 
   void prepare(Features features, const std::vector<Kernel> &kernels) override
   {
@@ -393,7 +399,8 @@ private:
   std::string name_;
   DeviceContext context_;
   DeviceStorage storage_;
-  size_t group_size_; /* of all kernels; 0: each kernel's own */
+  uint64_t finished_launches_ = 0; /* by the last wait for all of them */
+  size_t group_size_;              /* of all kernels; 0: each kernel's own */
   PhaseMode phase_mode_;
   size_t units_ = context_.device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
   std::map<Stage, Features> readable_; /* the features that the program of a stage reads */

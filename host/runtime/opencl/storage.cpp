@@ -121,6 +121,7 @@ void *DeviceStorage::allocate(Element, size_t bytes, void *host_memory)
     buffer->memory =
         clCreateBuffer(context_.context(), CL_MEM_READ_WRITE | sharing, buffer->bytes, buffer->shared_with, &code);
   if (code == CL_SUCCESS && !buffer->shared_with) {
+    is_busy_ = true;
     code = code_of(faults::Site::allocation, [&] { return fill_with_zeros(context_, buffer->memory, buffer->bytes); });
     if (code != CL_SUCCESS) clReleaseMemObject(buffer->memory);
   }
@@ -171,6 +172,7 @@ void DeviceStorage::read(void *handle, size_t offset, void *to, size_t bytes)
 void DeviceStorage::copy(void *from, void *to, size_t bytes)
 {
   if (bytes == 0) return;
+  is_busy_ = true;
   const cl_int code = code_of(faults::Site::transfer, [&] {
     return clEnqueueCopyBuffer(context_.queue(), static_cast<DeviceBuffer *>(from)->memory,
                                static_cast<DeviceBuffer *>(to)->memory, 0, 0, bytes, 0, nullptr, nullptr);
@@ -182,6 +184,7 @@ void DeviceStorage::wait()
 {
   const cl_int code = code_of(faults::Site::transfer, [&] { return finish_queue(context_); });
   if (code != CL_SUCCESS) fail_to_wait(context_, code);
+  is_busy_ = false;
 }
 
 } // namespace tandem::opencl

@@ -29,13 +29,15 @@ public:
   void read(void *handle, size_t offset, void *to, size_t bytes) override;
   void copy(void *from, void *to, size_t bytes) override;
   void wait() override;
+  /* Whether copies or fills were begun since the last wait. */
+  bool is_busy() const { return is_busy_; }
   bool shares_host_memory() const override { return shares_; }
 
 private:
   void pass_ownership(const DeviceBuffer &buffer, size_t offset, size_t bytes, cl_map_flags flags);
 
   const DeviceContext &context_;
-  bool shares_;
+  bool shares_, is_busy_ = false;
   uint64_t next_serial_ = 1;
 };
 
