@@ -44,11 +44,12 @@ void ParallelRegion::begin(LaunchesOfRegion &launches, uint32_t threads)
   launches_ = &launches;
   phases_ = launches.count();
   make_room(phases_);
-  for (size_t launch = 0; launch < phases_; ++launch) {
-    phase_[launch].next.store(0, std::memory_order_relaxed);
-    phase_[launch].done.store(0, std::memory_order_relaxed);
-  }
+  for (size_t launch = 0; launch < phases_; ++launch) phase_[launch].next.store(0, std::memory_order_relaxed);
   present_.store(0, std::memory_order_relaxed);
+  for (Count &parts : parts_ended_) parts.ended.store(0, std::memory_order_relaxed);
+  clusters_ended_.ended.store(0, std::memory_order_relaxed);
+  parts_expected_ = {};
+  clusters_expected_ = 0;
   for (Share &share : shares_) share.taken.store(0, std::memory_order_relaxed);
   open_after(SIZE_MAX);
 }
@@ -60,7 +61,10 @@ void ParallelRegion::open_after(size_t launch)
     Phase &phase = phase_[launch];
     phase.range = launches_->range_of(launch);
     phase.parts = parts_of(phase.range);
-    if (phase.parts > 1) break;
+    if (phase.parts > 1) {
+      expect_parts_of(phase);
+      break;
+    }
     if (phase.parts == 1) launches_->run(launch, phase.range.first, phase.range.last);
   }
   open_.store(launch, std::memory_order_release);
@@ -87,7 +91,22 @@ void ParallelRegion::run_part(size_t launch, uint32_t part)
   const uint32_t first = phase.range.first + static_cast<uint32_t>(end_of(part)),
                  last = phase.range.first + static_cast<uint32_t>(end_of(part + uint64_t{1}));
   if (first < last) launches_->run(launch, first, last);
-  if (phase.done.fetch_add(1, std::memory_order_acq_rel) + 1 == phase.parts) open_after(launch);
+  if (ends_phase(phase, part)) open_after(launch);
+}
+
+void ParallelRegion::expect_parts_of(Phase &phase)
+{
+  for (uint32_t cluster = 0; cluster < clusters; ++cluster)
+    phase.last_part[cluster] = parts_expected_[cluster] += (phase.parts + clusters - 1 - cluster) / clusters;
+  phase.last_cluster = clusters_expected_ += std::min(clusters, phase.parts);
+}
+
+/* Whether this part was the last of its launch to end. */
+bool ParallelRegion::ends_phase(const Phase &phase, uint32_t part)
+{
+  const uint32_t cluster = part % clusters;
+  if (parts_ended_[cluster].ended.fetch_add(1, std::memory_order_acq_rel) + 1 != phase.last_part[cluster]) return false;
+  return clusters_ended_.ended.fetch_add(1, std::memory_order_acq_rel) + 1 == phase.last_cluster;
 }
 
 void ParallelRegion::run_any_parts(size_t launch)

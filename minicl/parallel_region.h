@@ -10,6 +10,7 @@
  */
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <memory>
@@ -46,10 +47,18 @@ public:
 
 private:
   static constexpr size_t cache_line = 64;
+  /* Parts that have ended are counted by clusters first, because a count that every thread changes goes from core to
+   * core for each. Cluster c has the parts c, c + clusters, ... The counts go on to the end of a series. */
+  static constexpr uint32_t clusters = 4;
+  struct alignas(cache_line) Count {
+    std::atomic<uint32_t> ended = 0;
+  };
   struct alignas(cache_line) Phase {
-    std::atomic<uint32_t> next = 0, done = 0; /* parts */
+    std::atomic<uint32_t> next = 0; /* part */
     LaunchesOfRegion::Range range;
     uint32_t parts = 0;
+    std::array<uint32_t, clusters> last_part; /* of each cluster: the count with which the launch ends for it */
+    uint32_t last_cluster = 0;
   };
   /* The launch up to which a thread's own share is taken, by itself or by another. */
   struct alignas(cache_line) Share {
@@ -60,6 +69,8 @@ private:
   void open_after(size_t launch);
   uint32_t parts_of(const LaunchesOfRegion::Range &range) const;
   void run_part(size_t launch, uint32_t part);
+  void expect_parts_of(Phase &phase);
+  bool ends_phase(const Phase &phase, uint32_t part);
   void run_any_parts(size_t launch);
   void run_share(size_t launch, uint32_t thread);
   void run_shares_left(size_t launch);
@@ -72,6 +83,10 @@ private:
   size_t room_ = 0;
   std::atomic<uint32_t> present_ = 0; /* threads that have come */
   std::vector<Share> shares_;
+  std::array<Count, clusters> parts_ended_;
+  Count clusters_ended_;
+  std::array<uint32_t, clusters> parts_expected_{}; /* of all launches up to the open one */
+  uint32_t clusters_expected_ = 0;
   alignas(cache_line) std::atomic<size_t> open_ = 0; /* the launch that is being run */
 };
 
