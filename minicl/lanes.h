@@ -136,6 +136,13 @@ SHARED void store_real(memory_real *to, item_index i, real value)
 {
   __builtin_memcpy(to + i.first, &value.v, sizeof value.v);
 }
+SHARED void store_listed_real_if(mask m, memory_real *to, uint_lanes i, real value)
+{
+  const item_index run{i.v[0]};
+  if (all_of(m & (i == uint_lanes(run)))) return store_real(to, run, value);
+  for (int lane = 0; lane < width; ++lane)
+    if (m.v[lane]) to[i.v[lane]] = value.v[lane];
+}
 SHARED uint_lanes load_uint(const uint *from, item_index i)
 {
   uint_lanes r;
@@ -149,6 +156,12 @@ SHARED void store_uint(uint *to, item_index i, uint_lanes value)
 SHARED void store_uint_if(mask m, uint *to, item_index i, uint_lanes value)
 {
   store_uint_if(m, to, uint_lanes(i), value);
+}
+SHARED void store_listed_uint_if(mask m, uint *to, uint_lanes i, uint_lanes value)
+{
+  const item_index run{i.v[0]};
+  if (all_of(m & (i == uint_lanes(run)))) store_uint(to, run, value);
+  else store_uint_if(m, to, i, value);
 }
 
 /* A record is loaded or stored whole, 16 bytes a lane, and transposed in registers. */

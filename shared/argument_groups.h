@@ -265,8 +265,9 @@ typedef struct {
   BUFFER(constraint_a, uint, a)                                                                                        \
   BUFFER(constraint_b, uint, b)                                                                                        \
   BUFFER(constraint_normal, float4, normal)                                                                            \
-  BUFFER(constraint_points, float4, points)                                                                            \
+  BUFFER(constraint_points, memory_real, points)                                                                       \
   BUFFER(constraint_center, float4, center)                                                                            \
+  BUFFER(constraint_offset, float4, offset)                                                                            \
   BUFFER(constraint_normal_impulse, float4, normal_impulse)                                                            \
   BUFFER(constraint_friction_impulse, float4, friction_impulse)                                                        \
   BUFFER(constraint_restitution, float4, restitution)                                                                  \
@@ -277,10 +278,16 @@ typedef struct {
   BUFFER(constraint_b, uint, b)                                                                                        \
   BUFFER(constraint_normal, float4, normal)
 
-/* The points of a contact, and the penetration that is left in place. */
+/* The pair of each constraint, and the constraint of each pair. */
+#define GROUP_contact_orders(BUFFER)                                                                                   \
+  BUFFER(sort_value, uint, pair)                                                                                       \
+  BUFFER(pair_constraint, uint, constraint)
+
+/* The points of a contact, its friction patch, and the penetration that is left in place. */
 #define GROUP_patches(BUFFER)                                                                                          \
-  BUFFER(constraint_points, float4, points)                                                                            \
+  BUFFER(constraint_points, memory_real, points)                                                                       \
   BUFFER(constraint_center, float4, center)                                                                            \
+  BUFFER(constraint_offset, float4, offset)                                                                            \
   BUFFER(constraint_slop, memory_real, slop)
 
 #define GROUP_contact_impulses(BUFFER)                                                                                 \
@@ -328,6 +335,7 @@ typedef struct {
   BUFFER(cached_color, uint, color)
 
 #define GROUP_cached_contacts(BUFFER)                                                                                  \
+  BUFFER(pair_cached, uint, of_pair)                                                                                   \
   BUFFER(cached_feature, uint, feature)                                                                                \
   BUFFER(cached_normal_impulse, float4, normal_impulse)                                                                \
   BUFFER(cached_friction_impulse, float4, friction_impulse)
@@ -371,6 +379,9 @@ typedef struct {
 typedef struct {
   GROUP_cached_contacts(READ_MEMBER)
 } read_cached_contacts;
+typedef struct {
+  GROUP_contact_orders(READ_MEMBER)
+} read_contact_orders;
 
 /* --- queries ---------------------------------------------------------------------------------------------- */
 /* The structures of the broadphase that queries search for bodies along a path: the hierarchy, and the boxes and cells

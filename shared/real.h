@@ -92,6 +92,14 @@ SHARED void store_float4_if(mask m, GLOBAL float4 *to, uint_lanes i, vec4 v)
   if (m) store_float4(to, i, v);
 }
 SHARED void store_listed_row_if(mask m, GLOBAL float4 *to, uint_lanes i, vec4 v) { store_float4_if(m, to, i, v); }
+SHARED void store_listed_uint_if(mask m, GLOBAL uint *to, uint_lanes i, uint_lanes value)
+{
+  store_uint_if(m, to, i, value);
+}
+SHARED void store_listed_real_if(mask m, GLOBAL memory_real *to, uint_lanes i, real value)
+{
+  if (m) to[i] = value;
+}
 
 #endif /* TANDEM_LANES */
 

@@ -80,11 +80,12 @@ SHARED real size_between(GLOBAL const float4 *body_shape, uint_lanes a, uint_lan
 typedef struct {
   vec3 linear, angular;
   real inverse_mass;
+  real inverse_inertia; /* of a body whose principal moments are equal; in solver_velocity alone */
 } spatial_velocity;
 
 SHARED spatial_velocity velocity_of_float4s(vec4 first, vec4 second)
 {
-  spatial_velocity m = {xyz(first), xyz(second), first.w};
+  spatial_velocity m = {xyz(first), xyz(second), first.w, second.w};
   return m;
 }
 SHARED spatial_velocity load_velocity(GLOBAL const float4 *velocity, uint_lanes body)
@@ -139,28 +140,54 @@ SHARED vec3 mean_fall(GLOBAL const Parameters *parameters, vec3 gravity, vec4 fi
 SHARED void store_velocity(GLOBAL float4 *velocity, uint_lanes body, spatial_velocity m)
 {
   store_float4(velocity, body * 2u, extend(m.linear, m.inverse_mass));
-  store_float4(velocity, body * 2u + 1u, extend(m.angular, R(0.0)));
+  store_float4(velocity, body * 2u + 1u, extend(m.angular, m.inverse_inertia));
 }
 SHARED void store_velocity_if(mask wanted, GLOBAL float4 *velocity, uint_lanes body, spatial_velocity m)
 {
   store_float4_if(wanted, velocity, body * 2u, extend(m.linear, m.inverse_mass));
-  store_float4_if(wanted, velocity, body * 2u + 1u, extend(m.angular, R(0.0)));
+  store_float4_if(wanted, velocity, body * 2u + 1u, extend(m.angular, m.inverse_inertia));
 }
 
 SHARED vec3 velocity_at(spatial_velocity m, vec3 arm) { return add(m.linear, cross3(m.angular, arm)); }
 
-SHARED symmetric3 load_inertia(GLOBAL const float4 *inertia, uint_lanes body)
+SHARED symmetric3 load_tensor(GLOBAL const float4 *inertia, uint_lanes body)
 {
   vec4 first = load_float4(inertia, body * 2u), second = load_float4(inertia, body * 2u + 1u);
   symmetric3 s = {first.x, first.y, first.z, first.w, second.x, second.y};
   return s;
 }
-/* The seventh number holds the locked linear axes. */
-SHARED symmetric3 load_inertia_and_locks(GLOBAL const float4 *inertia, uint_lanes body, real *locks)
+/* The inverse inertia of a body in world axes. Where the principal moments of every body are equal, it is one number,
+ * which stands beside the velocity, and the scene has no rows of tensors. The zeros come from memory: a compiler that
+ * knew them would decide the signs of the zeros that they are added to. locks: the locked linear axes, the seventh
+ * number of a row. */
+SHARED symmetric3 load_inertia_and_locks(GLOBAL const Parameters *parameters, GLOBAL const float4 *inertia,
+                                         uint_lanes body, spatial_velocity m, real *locks)
 {
-  vec4 first = load_float4(inertia, body * 2u), second = load_float4(inertia, body * 2u + 1u);
-  symmetric3 s = {first.x, first.y, first.z, first.w, second.x, second.y};
-  *locks = MAY_OCCUR(LOCKS) ? second.z : R(0.0);
+  real zero = (real)parameters->zero;
+  *locks = R(0.0);
+  if (HAS_FEATURE(parameters, GYROSCOPIC)) {
+    if (MAY_OCCUR(LOCKS)) *locks = load_float4(inertia, body * 2u + 1u).z;
+    return load_tensor(inertia, body);
+  } else {
+    symmetric3 s = {m.inverse_inertia, m.inverse_inertia, m.inverse_inertia, zero, zero, zero};
+    return s;
+  }
+}
+SHARED symmetric3 load_inertia(GLOBAL const Parameters *parameters, GLOBAL const float4 *inertia, uint_lanes body,
+                               spatial_velocity m)
+{
+  real locks;
+  return load_inertia_and_locks(parameters, inertia, body, m, &locks);
+}
+/* The inverse inertia of an orientation, from the principal inverse moments. If these are equal, it is the same for
+ * every orientation, without -0 off the diagonal. */
+SHARED symmetric3 inertia_of(quat orientation, vec3 inverse_moments)
+{
+  symmetric3 s = rotate_diagonal(rotation_of(orientation), inverse_moments);
+  mask even = (inverse_moments.x == inverse_moments.y) & (inverse_moments.y == inverse_moments.z);
+  s.xy = choose(even, (real)R(0.0), s.xy);
+  s.xz = choose(even, (real)R(0.0), s.xz);
+  s.yz = choose(even, (real)R(0.0), s.yz);
   return s;
 }
 SHARED void store_inertia(GLOBAL float4 *inertia, uint_lanes body, symmetric3 s)

@@ -65,9 +65,23 @@ private:
     if (has(FEATURE_TREES)) merge_contacts();
     run_extensions(StepPoint::contacts);
     color_contacts();
-    run(Kernel::prepare_contacts);
+    set_up_contacts();
     if (plan().colors > COLOR_LIMIT) run_range(Kernel::mark_overflow, COLOR_START + COLOR_OVERFLOW, COUNT_CONSTRAINTS);
     if (has(FEATURE_ROLLING)) run(Kernel::prepare_rolling);
+  }
+
+  /* Few pairs are read from caches in any order. */
+  bool touches_mostly() const
+  {
+    const uint32_t pairs = plan().known[COUNT_PAIRS];
+    return pairs >= 4096 && plan().known[COUNT_CONSTRAINTS] > pairs / 2;
+  }
+
+  void set_up_contacts()
+  {
+    const bool by_pair = touches_mostly();
+    if (by_pair) run(Kernel::place_constraints);
+    run_range(Kernel::prepare_contacts, COUNT_ZERO, by_pair ? COUNT_PAIRS : COUNT_CONSTRAINTS, {by_pair ? 1u : 0u});
   }
 
   void find_pairs()

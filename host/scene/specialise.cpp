@@ -220,7 +220,7 @@ Features body_features(const Scene &scene)
     if (spins_unevenly(scene, body)) features |= FEATURE_GYROSCOPIC;
     if (body.continuous) features |= FEATURE_CONTINUOUS;
     if (is_damped(body)) features |= FEATURE_DAMPING;
-    if (is_locked(body)) features |= FEATURE_LOCKS;
+    if (is_locked(body)) features |= FEATURE_LOCKS | FEATURE_GYROSCOPIC;
     if (is_limited(body)) features |= FEATURE_MAX_SPEED;
   }
   if (filters(scene)) features |= FEATURE_FILTER;

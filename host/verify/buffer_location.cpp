@@ -104,7 +104,7 @@ BufferLocation location_in(Buffer buffer, size_t scalar, size_t capacity)
   location.part = static_cast<uint32_t>(planes ? location.element / capacity : location.element % row.per_item);
   const size_t within = location.part * width + scalar % width;
   if (within < names.size() && names.size() == row.per_item * width) location.field = names[within];
-  else if (!names.empty()) location.field = fmt::format("{}[{}]", names[scalar % width % names.size()], location.part);
+  else if (!names.empty()) location.field = fmt::format("{}[{}]", names[within % names.size()], within / names.size());
   return location;
 }
 

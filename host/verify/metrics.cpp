@@ -11,6 +11,7 @@
 #include "host/scene/specialise.h"
 #include "shared/counts.h"
 #include "shared/platform.h"
+#include "shared/point_numbers.h"
 
 namespace tandem {
 namespace {
@@ -56,7 +57,8 @@ public:
     delta_ = memory.read_reals(Buffer::solver_delta_pose, 8 * size_t{counts[COUNT_BODIES]});
     normal_ = plane(memory, Buffer::constraint_normal, 0);
     read_points(memory, counts[CAPACITY_POINTS]);
-    for (size_t k = 0; k < 2; ++k) center_[k] = plane(memory, Buffer::constraint_center, k);
+    center_ = plane(memory, Buffer::constraint_center, 0);
+    offset_ = plane(memory, Buffer::constraint_offset, 0);
     normal_impulse_ = plane(memory, Buffer::constraint_normal_impulse, 0);
     friction_impulse_ = memory.bytes(Buffer::constraint_friction_impulse) > 0
                             ? plane(memory, Buffer::constraint_friction_impulse, 0)
@@ -78,12 +80,13 @@ public:
   Point point(size_t i, size_t k) const
   {
     Point p;
-    p.mass = points_[k + 4][4 * i + 3];
+    p.mass = of_point(i, k, POINT_MASS);
     p.used = p.mass > 0;
     if (!p.used) return p;
     p.impulse = normal_impulse_[4 * i + k];
-    p.started = points_[k][4 * i + 3];
-    p.speed = normal(i).dot(relative_velocity(i, at(points_[k], i), at(points_[k + 4], i)));
+    p.started = of_point(i, k, POINT_SEPARATION);
+    const Vector arm{of_point(i, k, POINT_X), of_point(i, k, POINT_Y), of_point(i, k, POINT_Z)};
+    p.speed = normal(i).dot(relative_velocity(i, arm, arm - at(offset_, i)));
     const double target_velocity = restitution_[0].empty() ? -1 : restitution_[0][4 * i + k];
     if (target_velocity >= 0 && restitution_[1][4 * i + k] > 0) p.speed -= target_velocity;
     return p;
@@ -95,13 +98,13 @@ public:
     double normal_impulse_sum = 0;
     for (size_t k = 0; k < 4; ++k) normal_impulse_sum += normal_impulse_[4 * i + k];
     f.limit = coefficient(i) * normal_impulse_sum;
-    f.mass = center_[0][4 * i + 3];
+    f.mass = center_[4 * i + 3];
     f.impulse = {friction_impulse_[4 * i], friction_impulse_[4 * i + 1]};
-    const Vector slide = relative_velocity(i, at(center_[0], i), at(center_[1], i)), n = normal(i);
+    const Vector arm = at(center_, i), slide = relative_velocity(i, arm, arm - at(offset_, i)), n = normal(i);
     f.speed = {first_tangent(n).dot(slide), second_tangent(n).dot(slide)};
     f.twist = friction_impulse_[4 * i + 2];
     f.twist_radius = friction_impulse_[4 * i + 3];
-    f.twist_mass = center_[1][4 * i + 3];
+    f.twist_mass = offset_[4 * i + 3];
     f.spin = n.dot(body(b_[i]).angular - body(a_[i]).angular);
     return f;
   }
@@ -112,13 +115,14 @@ public:
 
 private:
   /* Points without a plane are zeros (shared/point_rows.h). */
-  void read_points(Memory &memory, size_t planes)
+  void read_points(Memory &memory, size_t of_pair)
   {
-    for (size_t k = 0; k < 4; ++k)
-      for (const size_t arm : {size_t{0}, size_t{1}})
-        points_[4 * arm + k] = k < planes ? plane(memory, Buffer::constraint_points, planes * arm + k)
-                                          : std::vector<double>(4 * size_t{count});
+    for (size_t plane = 0; plane < points_.size(); ++plane)
+      points_[plane] = plane < of_pair * POINT_NUMBERS
+                           ? memory.read_reals(Buffer::constraint_points, count, plane * stride_)
+                           : std::vector<double>(count);
   }
+  double of_point(size_t i, size_t k, size_t number) const { return points_[k * POINT_NUMBERS + number][i]; }
   std::vector<double> plane(Memory &memory, Buffer buffer, size_t k) const
   {
     return memory.read_reals(buffer, 4 * count, 4 * k * stride_);
@@ -166,8 +170,9 @@ private:
   size_t stride_ = 0;
   std::vector<uint32_t> a_, b_;
   std::vector<double> velocity_, delta_, normal_, normal_impulse_, friction_impulse_;
-  std::array<std::vector<double>, 8> points_;
-  std::array<std::vector<double>, 2> center_, restitution_;
+  std::vector<double> center_, offset_;
+  std::array<std::vector<double>, 20> points_;
+  std::array<std::vector<double>, 2> restitution_;
 };
 
 /* The speed error of a point at the end of the step. A gap may close within the step, so any speed from closing it to

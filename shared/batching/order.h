@@ -4,10 +4,12 @@
 
 #include "shared/records.h"
 
-SHARED void color_keys_item(GLOBAL const uint *pair_color, GLOBAL uint *sort_key, GLOBAL uint *sort_value, uint i)
+SHARED void color_keys_item(GLOBAL const uint *pair_color, GLOBAL uint *sort_key, GLOBAL uint *sort_value,
+                            GLOBAL uint *pair_constraint, uint i)
 {
   sort_key[i] = pair_color[i];
   sort_value[i] = i;
+  pair_constraint[i] = INDEX_NONE;
 }
 
 SHARED uint first_not_below(GLOBAL const uint *sort_key, uint length, uint key)

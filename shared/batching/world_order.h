@@ -21,11 +21,12 @@ SHARED void note_world_overflow_item(read_world_pairs pairs, GLOBAL const uint *
 
 SHARED void world_color_keys_item(read_world_pairs pairs, GLOBAL const uint *pair_color,
                                   GLOBAL const uint *world_overflows, GLOBAL uint *sort_key, GLOBAL uint *sort_value,
-                                  uint i)
+                                  GLOBAL uint *pair_constraint, uint i)
 {
   uint color = pair_color[i];
   sort_key[i] = color > COLOR_LIMIT ? color : 2u * color + world_overflows[pairs.world[2u * pairs.a[i]]];
   sort_value[i] = i;
+  pair_constraint[i] = INDEX_NONE;
 }
 
 SHARED void world_color_starts_item(GLOBAL const uint *sort_key, GLOBAL uint *counts, uint color)

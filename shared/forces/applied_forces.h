@@ -30,7 +30,7 @@ SHARED void apply_forces_item(GLOBAL const Parameters *parameters, GLOBAL const 
   real h = parameters->substep;
   vec3 force = xyz(load_float4(solver_force, i * 2u)), torque = xyz(load_float4(solver_force, i * 2u + 1u));
   m.linear = add_scaled(m.linear, force, m.inverse_mass * h);
-  m.angular = add_scaled(m.angular, symmetric_times(load_inertia(solver_inertia, i), torque), h);
+  m.angular = add_scaled(m.angular, symmetric_times(load_inertia(parameters, solver_inertia, i, m), torque), h);
   mask pushed = is_nonzero(force) | is_nonzero(torque); /* adding 0 would turn -0 into +0 */
   store_velocity_if(pushed & (m.inverse_mass > R(0.0)), solver_velocity, i, m);
 }

@@ -17,7 +17,7 @@ SHARED void lock_bodies_item(GLOBAL const uint *body_lock, GLOBAL float4 *solver
   if (!any_of(locked)) return;
   m.linear = without_locked_axes(m.linear, linear_locks(locks));
   m.angular = without_locked_axes(m.angular, angular_locks(locks));
-  symmetric3 s = held_about_axes(load_inertia(solver_inertia, i), angular_locks(locks));
+  symmetric3 s = held_about_axes(load_tensor(solver_inertia, i), angular_locks(locks));
   store_velocity_if(locked, solver_velocity, i, m);
   store_float4_if(locked, solver_inertia, i * 2u, make_vec4(s.xx, s.yy, s.zz, s.xy));
   store_float4_if(locked, solver_inertia, i * 2u + 1u, make_vec4(s.xz, s.yz, to_real(linear_locks(locks)), R(0.0)));

@@ -121,7 +121,7 @@ SHARED void integrate_positions_item(GLOBAL const Parameters *parameters, GLOBAL
     next = quat_from(choose4(turns_freely, quat_to_vec4(s.orientation), quat_to_vec4(next)));
     m.angular = s.angular;
     store_velocity_if(turns_freely, solver_velocity, i, m);
-    store_inertia_if(uneven, solver_inertia, i, rotate_diagonal(rotation_of(next), xyz(mass)));
+    store_inertia_if(uneven, solver_inertia, i, inertia_of(next, xyz(mass)));
   }
   store_float4(solver_orientation, i, quat_to_vec4(next));
 }

@@ -37,6 +37,8 @@ SHARED void prepare_bodies_item(GLOBAL const Parameters *parameters, GLOBAL cons
   vec4 orientation = load_float4(bodies.orientation, i);
   vec4 zero = make_vec4(R(0.0), R(0.0), R(0.0), R(0.0));
   note_nonfinite(state_is_finite(bodies, i), counts, i, NONFINITE_AT_START);
+  vec3 inverse_moments = xyz(load_float4(body_mass, i * 2u));
+  m.inverse_inertia = inverse_moments.x;
   store_velocity(solver_velocity, i, m);
   store_float4(solver_delta_pose, i * 2u, zero);
   store_float4(solver_delta_pose, i * 2u + 1u, zero);
@@ -44,8 +46,8 @@ SHARED void prepare_bodies_item(GLOBAL const Parameters *parameters, GLOBAL cons
     store_float4(warm_start_impulse, i * 2u, zero);
     store_float4(warm_start_impulse, i * 2u + 1u, zero);
   }
-  store_inertia(solver_inertia, i,
-                rotate_diagonal(rotation_of(quat_from(orientation)), xyz(load_float4(body_mass, i * 2u))));
+  if (HAS_FEATURE(parameters, GYROSCOPIC))
+    store_inertia(solver_inertia, i, inertia_of(quat_from(orientation), inverse_moments));
   store_float4(solver_orientation, i, orientation);
   store_uint(colored_bodies.colors, i * 2u, 0u);
   store_uint(colored_bodies.colors, i * 2u + 1u, 0u);

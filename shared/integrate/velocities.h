@@ -49,7 +49,7 @@ SHARED void integrate_velocities_item(GLOBAL const Parameters *parameters, GLOBA
   warm_start_impulses taken = take_warm_start(parameters, warm_start_impulse, i);
   m.linear = add_scaled(m.linear, taken.linear, m.inverse_mass);
   if (HAS_FEATURE(parameters, LOCKS)) m.linear = without_locked_axes(m.linear, linear_locks(load_uint(body_lock, i)));
-  m.angular = add(m.angular, symmetric_times(load_inertia(solver_inertia, i), taken.angular));
+  m.angular = add(m.angular, symmetric_times(load_inertia(parameters, solver_inertia, i, m), taken.angular));
   store_velocity_if(moves, solver_velocity, i, m);
   store_real(solver_free_power, i, free_power);
 }

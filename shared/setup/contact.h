@@ -143,18 +143,17 @@ SHARED real cached_impulse(uint_lanes feature, uint_lanes point, uint_lanes old_
   return choose((feature >> 8u) == (old_feature >> 8u), found, (real)R(0.0));
 }
 
-SHARED body_pair load_body_pair(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b,
-                                GLOBAL const float4 *body_position, GLOBAL const float4 *solver_velocity,
-                                GLOBAL const float4 *solver_inertia, uint_lanes pair)
+SHARED body_pair load_body_pair(GLOBAL const Parameters *parameters, GLOBAL const uint *pair_a,
+                                GLOBAL const uint *pair_b, read_touching_bodies touching, uint_lanes pair)
 {
   body_pair bodies;
   bodies.a = load_uint(pair_a, pair);
   bodies.b = load_uint(pair_b, pair);
-  bodies.velocity_a = load_velocity(solver_velocity, bodies.a);
-  bodies.velocity_b = load_velocity(solver_velocity, bodies.b);
-  bodies.inertia_a = load_inertia_and_locks(solver_inertia, bodies.a, &bodies.locks_a);
-  bodies.inertia_b = load_inertia_and_locks(solver_inertia, bodies.b, &bodies.locks_b);
-  bodies.offset = offset_between(body_position, bodies.a, bodies.b);
+  bodies.velocity_a = load_velocity(touching.velocity, bodies.a);
+  bodies.velocity_b = load_velocity(touching.velocity, bodies.b);
+  bodies.inertia_a = load_inertia_and_locks(parameters, touching.inertia, bodies.a, bodies.velocity_a, &bodies.locks_a);
+  bodies.inertia_b = load_inertia_and_locks(parameters, touching.inertia, bodies.b, bodies.velocity_b, &bodies.locks_b);
+  bodies.offset = offset_between(touching.position, bodies.a, bodies.b);
   return bodies;
 }
 
@@ -270,9 +269,11 @@ SHARED real push_limit(GLOBAL const Parameters *parameters, real slop_or_deep)
 
 /* A pair of bodies during the setup of its constraint. If the bodies meet within the step, arms and masses are those of
  * that moment. The stored arms are such that the solver's shift of arms brings them to that moment, or the arms of that
- * moment themselves if arms do not follow. arms_back: from the arms of that moment to the stored ones. */
+ * moment themselves if arms do not follow. arms_back: from the arms of that moment to the stored ones. at: where the
+ * constraint stands in colour order, if it is wanted, because the pair touches. */
 typedef struct {
-  uint_lanes pair, points, feature;
+  uint_lanes pair, at, points, feature;
+  mask wanted;
   body_pair bodies;
   vec3 normal, gravity;
   surface between;
@@ -291,13 +292,15 @@ SHARED mask one_is_driven_ball(body_pair bodies, uint_lanes shape_a, uint_lanes 
 
 SHARED contact_setup begin_setup(GLOBAL const Parameters *parameters, GLOBAL const float4 *material,
                                  read_touching_bodies touching, read_part_pairs part_pairs, read_manifolds manifolds,
-                                 uint_lanes pair)
+                                 uint_lanes at, uint_lanes pair)
 {
   contact_setup s;
   s.pair = pair;
+  s.at = at;
+  s.wanted = at != (uint_lanes)INDEX_NONE;
   s.points = load_uint(manifolds.count, pair);
   s.feature = load_uint(manifolds.feature, pair);
-  s.bodies = load_body_pair(part_pairs.a, part_pairs.b, touching.position, touching.velocity, touching.inertia, pair);
+  s.bodies = load_body_pair(parameters, part_pairs.a, part_pairs.b, touching, pair);
   s.size = size_between(touching.shape, s.bodies.a, s.bodies.b);
   uint_lanes shape_a = shape_in_pair(parameters, part_pairs.leaf, pair, 0u, s.bodies.a),
              shape_b = shape_in_pair(parameters, part_pairs.leaf, pair, 1u, s.bodies.b);
@@ -345,15 +348,14 @@ typedef struct {
 
 SHARED void prepare_point(GLOBAL const Parameters *parameters, const contact_setup *s, const old_impulses *old,
                           vec4 point, uint k, point_planes planes, points_setup *points,
-                          GLOBAL float4 *constraint_points, item_index i)
+                          GLOBAL memory_real *constraint_points)
 {
   mask used = s->points > (uint_lanes)k;
   vec3 arm_a = xyz(point), arm_b = subtract(arm_a, s->bodies.offset), none = make_vec3(R(0.0), R(0.0), R(0.0));
   real mass = choose(used, normal_mass(s->bodies, arm_a, arm_b, s->normal), (real)R(0.0));
   real speed = dot3(s->normal, relative_velocity(s->bodies, arm_a, arm_b));
-  store_arm_of_a(constraint_points, planes, k, i,
-                 extend(choose3(used, add(arm_a, s->arms_back.a), none), choose(used, point.w, (real)R(0.0))));
-  store_arm_of_b(constraint_points, planes, k, i, extend(choose3(used, add(arm_b, s->arms_back.b), none), mass));
+  store_point_if(s->wanted, constraint_points, planes, k, s->at, choose3(used, add(arm_a, s->arms_back.a), none),
+                 choose(used, point.w, (real)R(0.0)), mass);
   points->impulse[k] =
       choose(used & old->is_cached,
              parameters->warm_start_scale * cached_impulse(s->feature, k, old->feature, old->normal), (real)R(0.0));
@@ -366,7 +368,7 @@ SHARED void prepare_point(GLOBAL const Parameters *parameters, const contact_set
 /* Marks bodies that a contact bears, because they do not fall. */
 SHARED void mark_borne(const contact_setup *s, mask near, GLOBAL uint *body_falls)
 {
-  mask bears = near & bears_weight(s->gravity, s->normal);
+  mask bears = s->wanted & near & bears_weight(s->gravity, s->normal);
   atomic_clear_if(bears & (s->bodies.velocity_a.inverse_mass > R(0.0)), body_falls, s->bodies.a);
   atomic_clear_if(bears & (s->bodies.velocity_b.inverse_mass > R(0.0)), body_falls, s->bodies.b);
 }
@@ -394,53 +396,69 @@ SHARED vec4 kept_friction(GLOBAL const Parameters *parameters, const contact_set
 }
 
 SHARED void prepare_friction(GLOBAL const Parameters *parameters, const contact_setup *s, const old_impulses *old,
-                             GLOBAL const float4 *manifold_points, point_planes planes, write_constraints constraints,
-                             item_index i)
+                             GLOBAL const float4 *manifold_points, point_planes planes, write_constraints constraints)
 {
   friction_patch patch = patch_of(manifold_points, s->pair, planes, s->points, parameters->speculative_distance);
   vec3 center_a = patch.center, center_b = subtract(center_a, s->bodies.offset);
   real friction = friction_between(s, center_a, center_b);
-  store_float4(constraints.normal, i, extend(s->normal, packed_friction(friction, s->arms_stay)));
-  store_float4(constraints.center, i,
-               extend(add(center_a, s->arms_back.a), friction_mass(s->bodies, center_a, center_b, s->normal)));
-  store_float4(constraints.center, planes.stride + i,
-               extend(add(center_b, s->arms_back.b), twist_mass(s->bodies, s->normal)));
+  vec3 offset = add(s->bodies.offset, subtract(s->arms_back.a, s->arms_back.b));
+  store_listed_row_if(s->wanted, constraints.normal, s->at, extend(s->normal, packed_friction(friction, s->arms_stay)));
+  store_listed_row_if(s->wanted, constraints.center, s->at,
+                      extend(add(center_a, s->arms_back.a), friction_mass(s->bodies, center_a, center_b, s->normal)));
+  store_listed_row_if(s->wanted, constraints.offset, s->at, extend(offset, twist_mass(s->bodies, s->normal)));
   if (HAS_FEATURE(parameters, FRICTION))
-    store_float4(constraints.friction_impulse, i, kept_friction(parameters, s, old, patch.radius));
+    store_listed_row_if(s->wanted, constraints.friction_impulse, s->at,
+                        kept_friction(parameters, s, old, patch.radius));
 }
 
+SHARED void store_restitution(const contact_setup *s, const points_setup *points, uint stride,
+                              GLOBAL float4 *constraint_restitution)
+{
+  store_listed_row_if(s->wanted, constraint_restitution, s->at,
+                      make_vec4(points->target_velocity[0], points->target_velocity[1], points->target_velocity[2],
+                                points->target_velocity[3]));
+  store_listed_row_if(s->wanted, constraint_restitution, (uint_lanes)stride + s->at,
+                      make_vec4(R(0.0), R(0.0), R(0.0), R(0.0)));
+}
+
+/* For read_contact_orders: where the constraint of a pair stands. */
+SHARED void place_constraints_item(GLOBAL const uint *sort_value, GLOBAL uint *pair_constraint, uint i)
+{
+  pair_constraint[sort_value[i]] = i;
+}
+
+/* by_pair: whether items are pairs, or constraints. In the order of pairs neighbours share bodies, and manifolds lie in
+ * a row, so memory is read in order and only what is written is spread over the colours. It takes the pairs that do not
+ * touch as well. */
 SHARED void prepare_contacts_item(GLOBAL const Parameters *parameters, GLOBAL const float4 *material,
                                   read_touching_bodies touching_bodies, read_part_pairs part_pairs,
-                                  GLOBAL const uint *pair_cached, read_manifolds manifolds,
-                                  read_cached_contacts cached_contacts, GLOBAL const uint *sort_value,
-                                  GLOBAL const uint *counts, write_constraints constraints, GLOBAL uint *body_falls,
-                                  item_index i)
+                                  read_manifolds manifolds, read_cached_contacts cached_contacts,
+                                  read_contact_orders contact_orders, GLOBAL const uint *counts,
+                                  write_constraints constraints, GLOBAL uint *body_falls, uint by_pair, item_index i)
 {
   point_planes planes = planes_of(counts);
-  uint_lanes pair = load_uint(sort_value, i);
-  contact_setup s = begin_setup(parameters, material, touching_bodies, part_pairs, manifolds, pair);
-  old_impulses old = load_old_impulses(parameters, cached_contacts, load_uint(pair_cached, pair));
+  uint_lanes at = i, pair = i;
+  if (by_pair != 0u) at = load_uint(contact_orders.constraint, i);
+  else pair = load_uint(contact_orders.pair, i);
+  if (!any_of(at != (uint_lanes)INDEX_NONE)) return;
+  contact_setup s = begin_setup(parameters, material, touching_bodies, part_pairs, manifolds, at, pair);
+  old_impulses old = load_old_impulses(parameters, cached_contacts, load_uint(cached_contacts.of_pair, pair));
   points_setup points;
   points.deepest = R(0.0);
   points.near = s.bodies.a == s.bodies.b; /* none yet */
   for (uint k = 0; k < 4u; ++k)
     prepare_point(parameters, &s, &old, load_manifold_point(manifolds.points, planes, k, pair), k, planes, &points,
-                  constraints.points, i);
+                  constraints.points);
   mark_borne(&s, points.near, body_falls);
-  prepare_friction(parameters, &s, &old, manifolds.points, planes, constraints, i);
+  prepare_friction(parameters, &s, &old, manifolds.points, planes, constraints);
 
-  store_uint(constraints.pair, i, pair);
-  store_uint(constraints.a, i, s.bodies.a);
-  store_uint(constraints.b, i, s.bodies.b);
-  store_float4(constraints.normal_impulse, i,
-               make_vec4(points.impulse[0], points.impulse[1], points.impulse[2], points.impulse[3]));
-  store_real(constraints.slop, i, slop_or_deep(parameters, s.size, points.deepest));
-  if (HAS_FEATURE(parameters, RESTITUTION)) {
-    store_float4(constraints.restitution, i,
-                 make_vec4(points.target_velocity[0], points.target_velocity[1], points.target_velocity[2],
-                           points.target_velocity[3]));
-    store_float4(constraints.restitution, planes.stride + i, make_vec4(R(0.0), R(0.0), R(0.0), R(0.0)));
-  }
+  store_listed_uint_if(s.wanted, constraints.pair, at, pair);
+  store_listed_uint_if(s.wanted, constraints.a, at, s.bodies.a);
+  store_listed_uint_if(s.wanted, constraints.b, at, s.bodies.b);
+  store_listed_row_if(s.wanted, constraints.normal_impulse, at,
+                      make_vec4(points.impulse[0], points.impulse[1], points.impulse[2], points.impulse[3]));
+  store_listed_real_if(s.wanted, constraints.slop, at, slop_or_deep(parameters, s.size, points.deepest));
+  if (HAS_FEATURE(parameters, RESTITUTION)) store_restitution(&s, &points, planes.stride, constraints.restitution);
 }
 
 #endif

@@ -72,13 +72,13 @@ SHARED real force_borne(GLOBAL const Parameters *parameters, GLOBAL const float4
 }
 
 /* Whether some point is as near as gravity closes within the step. */
-SHARED uint stands_near(GLOBAL const Parameters *parameters, GLOBAL const float4 *constraint_points,
+SHARED uint stands_near(GLOBAL const Parameters *parameters, GLOBAL const memory_real *constraint_points,
                         point_planes planes, uint i)
 {
   real reach = R(0.5) * parameters->gravity_length * parameters->step * parameters->step;
   for (uint k = 0; k < 4u; ++k)
-    if (load_arm_of_b(constraint_points, planes, k, i).w > R(0.0) &&
-        load_arm_of_a(constraint_points, planes, k, i).w <= reach)
+    if (load_point_mass(constraint_points, planes, k, i) > R(0.0) &&
+        load_separation(constraint_points, planes, k, i) <= reach)
       return 1u;
   return 0u;
 }
@@ -104,8 +104,9 @@ SHARED void note_rate(GLOBAL const Parameters *parameters, real rate, GLOBAL uin
 SHARED void weigh_standing_item(GLOBAL const Parameters *parameters, GLOBAL const float4 *body_shape,
                                 GLOBAL const float4 *solver_velocity, GLOBAL const uint *pair_cached,
                                 GLOBAL const uint *constraint_pair, read_contacts contacts,
-                                GLOBAL const float4 *constraint_points, GLOBAL const float4 *constraint_normal_impulse,
-                                GLOBAL const uint *standing_above, GLOBAL uint *standing, GLOBAL uint *counts, uint i)
+                                GLOBAL const memory_real *constraint_points,
+                                GLOBAL const float4 *constraint_normal_impulse, GLOBAL const uint *standing_above,
+                                GLOBAL uint *standing, GLOBAL uint *counts, uint i)
 {
   if (!(parameters->gravity_length > R(0.0))) return;
   standing_pair p = standing_pair_of(parameters, contacts, solver_velocity, i);

@@ -91,19 +91,19 @@ SHARED contact_forces forces_of(GLOBAL const Parameters *parameters, read_patche
   delta_pose moved = load_delta_pose(solver_delta_pose, c);
   arm_shift shift = shift_of_contact(c, moved.translation);
   real closed = dot3(c.normal, moved.translation);
+  vec4 offset = load_float4(patches.offset, i), center = load_float4(patches.center, i);
   for (uint k = 0; k < 4u; ++k) {
-    vec4 point_a = load_arm_of_a(patches.points, planes, k, i);
-    f.r_cross_n_a[k] = cross3(add(xyz(point_a), shift.a), c.normal);
-    f.r_cross_n_b[k] = cross3(add(xyz(load_arm_of_b(patches.points, planes, k, i)), shift.b), c.normal);
-    real separation =
-        point_a.w + closed + (dot3(f.r_cross_n_b[k], moved.rotation_b) - dot3(f.r_cross_n_a[k], moved.rotation_a));
+    vec3 arm_a = load_arm_of_a(patches.points, planes, k, i), arm_b = subtract(arm_a, xyz(offset));
+    f.r_cross_n_a[k] = cross3(add(arm_a, shift.a), c.normal);
+    f.r_cross_n_b[k] = cross3(add(arm_b, shift.b), c.normal);
+    real separation = load_separation(patches.points, planes, k, i) + closed +
+                      (dot3(f.r_cross_n_b[k], moved.rotation_b) - dot3(f.r_cross_n_a[k], moved.rotation_a));
     f.violation[k] =
         point_violation(parameters, separation, speed_along(c, c.normal, f.r_cross_n_a[k], f.r_cross_n_b[k]));
     /* The penalty of an unused point is 0, and so is its multiplier. */
     f.impulse[k] = maximum(component(old, (uint_lanes)k) - component(penalty, (uint_lanes)k) * f.violation[k], R(0.0));
   }
-  friction_forces(&f, c, shift, load_float4(patches.center, i), load_float4(patches.center, planes.stride + i),
-                  load_float4(constraint_penalty, i * 2u + 1u),
+  friction_forces(&f, c, shift, center, center_of_b(center, offset), load_float4(constraint_penalty, i * 2u + 1u),
                   load_friction(parameters, constraint_friction_impulse, i),
                   (f.impulse[0] + f.impulse[1]) + (f.impulse[2] + f.impulse[3]));
   return f;
@@ -146,15 +146,14 @@ SHARED void avbd_prepare_item(GLOBAL const Parameters *parameters, GLOBAL const 
   vec4 old = load_float4(cached_penalty, from * 2u), old_friction = load_float4(cached_penalty, from * 2u + 1u);
   real penalty[4];
   for (uint k = 0; k < 4u; ++k)
-    penalty[k] = kept_penalty(load_arm_of_b(patches.points, planes, k, i).w,
+    penalty[k] = kept_penalty(load_point_mass(patches.points, planes, k, i),
                               choose(is_cached, cached_impulse(feature, k, old_feature, old), (real)R(0.0)));
   store_float4(duals.penalty, i * 2u, make_vec4(penalty[0], penalty[1], penalty[2], penalty[3]));
   store_float4(
       duals.penalty, i * 2u + 1u,
       make_vec4(kept_penalty(load_float4(patches.center, i).w, choose(is_cached, old_friction.x, (real)R(0.0))),
-                kept_penalty(load_float4(patches.center, planes.stride + i).w,
-                             choose(is_cached, old_friction.y, (real)R(0.0))),
-                R(0.0), R(0.0)));
+                kept_penalty(load_float4(patches.offset, i).w, choose(is_cached, old_friction.y, (real)R(0.0))), R(0.0),
+                R(0.0)));
   real kept = AVBD_ALPHA * AVBD_GAMMA;
   vec4 impulse = load_float4(duals.normal, i), friction = load_friction(parameters, duals.friction, i);
   store_float4(duals.normal, i, make_vec4(kept * impulse.x, kept * impulse.y, kept * impulse.z, kept * impulse.w));
@@ -175,21 +174,21 @@ SHARED void avbd_duals_item(GLOBAL const Parameters *parameters, read_contacts c
                             GLOBAL float4 *constraint_restitution, item_index i)
 {
   point_planes planes = planes_of(counts);
-  contact c = load_contact(contacts, solver_velocity, solver_inertia, i);
+  contact c = load_contact(parameters, contacts, solver_velocity, solver_inertia, i);
   contact_forces f =
       forces_of(parameters, patches, duals.normal, duals.friction, duals.penalty, solver_delta_pose, planes, c, i);
   vec4 penalty = load_float4(duals.penalty, i * 2u), friction_penalty = load_float4(duals.penalty, i * 2u + 1u);
   real grown[4];
   for (uint k = 0; k < 4u; ++k)
-    grown[k] = grown_penalty(component(penalty, (uint_lanes)k), load_arm_of_b(patches.points, planes, k, i).w,
+    grown[k] = grown_penalty(component(penalty, (uint_lanes)k), load_point_mass(patches.points, planes, k, i),
                              f.violation[k], f.impulse[k] > R(0.0));
   store_float4(duals.penalty, i * 2u, make_vec4(grown[0], grown[1], grown[2], grown[3]));
-  store_float4(duals.penalty, i * 2u + 1u,
-               make_vec4(grown_penalty(friction_penalty.x, load_float4(patches.center, i).w, f.slide_speed,
-                                       f.slide_share == R(1.0)),
-                         grown_penalty(friction_penalty.y, load_float4(patches.center, planes.stride + i).w,
-                                       f.twist_speed, f.twist_share == R(1.0)),
-                         R(0.0), R(0.0)));
+  store_float4(
+      duals.penalty, i * 2u + 1u,
+      make_vec4(
+          grown_penalty(friction_penalty.x, load_float4(patches.center, i).w, f.slide_speed, f.slide_share == R(1.0)),
+          grown_penalty(friction_penalty.y, load_float4(patches.offset, i).w, f.twist_speed, f.twist_share == R(1.0)),
+          R(0.0), R(0.0)));
   vec4 normal_impulses = make_vec4(f.impulse[0], f.impulse[1], f.impulse[2], f.impulse[3]);
   store_float4(duals.normal, i, normal_impulses);
   store_friction(parameters, duals.friction, i,

@@ -129,12 +129,11 @@ SHARED void avbd_body(GLOBAL const Parameters *parameters, read_blocks blocks, r
       rotation_of(quat_from(load_float4(blocks.orientation, body))),
       make_vec3(square_root(inverse_moments.x), square_root(inverse_moments.y), square_root(inverse_moments.z)),
       square_root(m.inverse_mass), R(1.0)};
-  block_system s =
-      begin_block(frame, m, load_velocity(blocks.target, body), load_float4(solver_velocity, body * 2u + 1u).w);
+  block_system s = begin_block(frame, m, load_velocity(blocks.target, body), (real)parameters->zero);
   for (uint k = body_constraint_lists.start[body]; k < body_constraint_lists.start[body + 1u]; ++k) {
     uint entry = body_constraint_lists.entries[k], i = entry >> 1u;
     frame.side = (entry & 1u) != 0u ? R(1.0) : R(-1.0);
-    contact c = load_contact(contacts, solver_velocity, blocks.inertia, i);
+    contact c = load_contact(parameters, contacts, solver_velocity, blocks.inertia, i);
     add_contact(&s, frame, duals.normal, duals.penalty, c,
                 forces_of(parameters, patches, duals.normal, duals.friction, duals.penalty, blocks.delta, planes, c, i),
                 i);

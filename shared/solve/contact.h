@@ -27,16 +27,16 @@ typedef struct {
   real locks_a, locks_b; /* linear, as in solver_inertia */
 } contact;
 
-SHARED contact load_contact(read_contacts contacts, GLOBAL const float4 *solver_velocity,
-                            GLOBAL const float4 *solver_inertia, item_index i)
+SHARED contact load_contact(GLOBAL const Parameters *parameters, read_contacts contacts,
+                            GLOBAL const float4 *solver_velocity, GLOBAL const float4 *solver_inertia, item_index i)
 {
   contact c;
   c.a = load_uint(contacts.a, i);
   c.b = load_uint(contacts.b, i);
   c.velocity_a = load_velocity(solver_velocity, c.a);
   c.velocity_b = load_velocity(solver_velocity, c.b);
-  c.inertia_a = load_inertia_and_locks(solver_inertia, c.a, &c.locks_a);
-  c.inertia_b = load_inertia_and_locks(solver_inertia, c.b, &c.locks_b);
+  c.inertia_a = load_inertia_and_locks(parameters, solver_inertia, c.a, c.velocity_a, &c.locks_a);
+  c.inertia_b = load_inertia_and_locks(parameters, solver_inertia, c.b, c.velocity_b, &c.locks_b);
   vec4 normal = load_float4(contacts.normal, i);
   c.normal = xyz(normal);
   c.friction = friction_of(normal.w);
@@ -118,21 +118,24 @@ typedef struct {
   real mass[4], impulse[4];
 } normal_rows;
 
-/* Loads the Jacobians, masses and impulses of the points. The caller keeps their separations at the start of the
- * step. */
-SHARED normal_rows load_normal_rows(GLOBAL const float4 *constraint_points, point_planes planes, contact c,
-                                    arm_shift shift, vec4 impulses, item_index i)
+/* Loads the Jacobians, masses and impulses of the points. The caller keeps their separations at the start of the step.
+ * offset: of constraint_offset. */
+SHARED normal_rows load_normal_rows(GLOBAL const memory_real *constraint_points, point_planes planes, contact c,
+                                    vec4 offset, arm_shift shift, vec4 impulses, item_index i)
 {
   normal_rows s;
   for (uint k = 0; k < 4u; ++k) {
-    vec4 point_b = load_arm_of_b(constraint_points, planes, k, i);
-    s.r_cross_n_a[k] = cross3(add(xyz(load_arm_of_a(constraint_points, planes, k, i)), shift.a), c.normal);
-    s.r_cross_n_b[k] = cross3(add(xyz(point_b), shift.b), c.normal);
-    s.mass[k] = point_b.w;
+    vec3 arm_a = load_arm_of_a(constraint_points, planes, k, i), arm_b = subtract(arm_a, xyz(offset));
+    s.r_cross_n_a[k] = cross3(add(arm_a, shift.a), c.normal);
+    s.r_cross_n_b[k] = cross3(add(arm_b, shift.b), c.normal);
+    s.mass[k] = load_point_mass(constraint_points, planes, k, i);
     s.impulse[k] = component(impulses, (uint_lanes)k);
   }
   return s;
 }
+
+/* The arm of b to the centre of the friction patch, and the effective mass of twisting. center_a: the arm of a. */
+SHARED vec4 center_of_b(vec4 center_a, vec4 offset) { return extend(subtract(xyz(center_a), xyz(offset)), offset.w); }
 
 /* The sum of a manifold's impulses: one linear impulse, and the angular impulses on the two bodies. */
 typedef struct {
@@ -162,12 +165,13 @@ SHARED void warm_start_item(GLOBAL const Parameters *parameters, read_contacts c
                             GLOBAL float4 *solver_velocity, item_index i)
 {
   point_planes planes = planes_of(counts);
-  contact c = load_contact(contacts, solver_velocity, solver_inertia, i);
+  contact c = load_contact(parameters, contacts, solver_velocity, solver_inertia, i);
   arm_shift shift = load_arm_shift(solver_delta_pose, c);
-  normal_rows s = load_normal_rows(patches.points, planes, c, shift, load_float4(constraint_normal_impulse, i), i);
-  vec3 center_a = add(xyz(load_float4(patches.center, i)), shift.a),
-       center_b = add(xyz(load_float4(patches.center, planes.stride + i)), shift.b);
-  wrench w = wrench_of(c, s, center_a, center_b, load_friction(parameters, constraint_friction_impulse, i));
+  vec4 offset = load_float4(patches.offset, i), center = load_float4(patches.center, i);
+  normal_rows s =
+      load_normal_rows(patches.points, planes, c, offset, shift, load_float4(constraint_normal_impulse, i), i);
+  wrench w = wrench_of(c, s, add(xyz(center), shift.a), add(xyz(center_of_b(center, offset)), shift.b),
+                       load_friction(parameters, constraint_friction_impulse, i));
   store_contact_velocities(solver_velocity,
                            apply_impulse(c, w.impulse, w.angular_impulse_a, w.angular_impulse_b, R(1.0)));
 }
@@ -324,15 +328,14 @@ SHARED contact block_solve_normals(contact c, normal_rows *s, const real *target
 
 /* Makes one pass over the points, where they are after the bodies have moved. */
 SHARED contact solve_normals(GLOBAL const Parameters *parameters, contact c, normal_rows *s, delta_pose moved,
-                             GLOBAL const float4 *constraint_points, point_planes planes, real slop, uint biased,
+                             GLOBAL const memory_real *constraint_points, point_planes planes, real slop, uint biased,
                              item_index i)
 {
   softness soft = softness_of(parameters, c);
   real closed = dot3(c.normal, moved.translation), target_impulse[4];
   for (uint k = 0; k < 4u; ++k) {
-    real started = load_arm_of_a(constraint_points, planes, k, i).w;
-    real separation =
-        started + closed + (dot3(s->r_cross_n_b[k], moved.rotation_b) - dot3(s->r_cross_n_a[k], moved.rotation_a));
+    real separation = load_separation(constraint_points, planes, k, i) + closed +
+                      (dot3(s->r_cross_n_b[k], moved.rotation_b) - dot3(s->r_cross_n_a[k], moved.rotation_a));
     real speed = speed_along(c, c.normal, s->r_cross_n_a[k], s->r_cross_n_b[k]);
     target_impulse[k] = normal_impulse(parameters, soft, slop, separation, speed, s->mass[k], s->impulse[k], biased);
   }
@@ -385,12 +388,13 @@ SHARED void settle_impact(GLOBAL const Parameters *parameters, read_contacts con
                           point_planes planes, write_contact_impulses contact_impulses, GLOBAL float4 *solver_velocity,
                           GLOBAL float4 *warm_start_impulse, uint pass, item_index i)
 {
-  contact c = load_contact(contacts, solver_velocity, solver_inertia, i);
+  contact c = load_contact(parameters, contacts, solver_velocity, solver_inertia, i);
   mask at_impact = c.follows == R(0.0);
   delta_pose moved = load_delta_pose(solver_delta_pose, c);
   arm_shift shift = shift_of_contact(c, moved.translation);
   vec4 before = load_float4(contact_impulses.normal, i);
-  normal_rows s = load_normal_rows(patches.points, planes, c, shift, before, i);
+  vec4 offset = load_float4(patches.offset, i), center = load_float4(patches.center, i);
+  normal_rows s = load_normal_rows(patches.points, planes, c, offset, shift, before, i);
   real slop = load_real(patches.slop, i);
   uint biased = pass == PASS_BIASED ? 1u : 0u;
   for (uint round = 0; round < IMPACT_ROUNDS; ++round)
@@ -402,15 +406,13 @@ SHARED void settle_impact(GLOBAL const Parameters *parameters, read_contacts con
                     highest_impulses(load_float4(contact_impulses.restitution, planes.stride + i), normal_impulses));
   vec4 changes = make_vec4(normal_impulses.x - before.x, normal_impulses.y - before.y, normal_impulses.z - before.z,
                            normal_impulses.w - before.w);
-  c = load_contact(contacts, solver_velocity, solver_inertia, i);
+  c = load_contact(parameters, contacts, solver_velocity, solver_inertia, i);
   c = apply_changes(c, &s, changes);
   store_contact_velocities_if(at_impact, solver_velocity, c);
-  vec3 center_a = add(xyz(load_float4(patches.center, i)), shift.a),
-       center_b = add(xyz(load_float4(patches.center, planes.stride + i)), shift.b);
   if (pass == PASS_RELAXING)
-    add_warm_start_impulse_if(
-        at_impact, warm_start_impulse, c,
-        wrench_of(c, s, center_a, center_b, load_friction(parameters, contact_impulses.friction, i)));
+    add_warm_start_impulse_if(at_impact, warm_start_impulse, c,
+                              wrench_of(c, s, add(xyz(center), shift.a), add(xyz(center_of_b(center, offset)), shift.b),
+                                        load_friction(parameters, contact_impulses.friction, i)));
 }
 
 SHARED void solve_contacts_item(GLOBAL const Parameters *parameters, read_contacts contacts, read_patches patches,
@@ -421,10 +423,11 @@ SHARED void solve_contacts_item(GLOBAL const Parameters *parameters, read_contac
 {
   point_planes planes = planes_of(counts);
   uint biased = pass == PASS_BIASED ? 1u : 0u;
-  contact c = load_contact(contacts, solver_velocity, solver_inertia, i);
+  contact c = load_contact(parameters, contacts, solver_velocity, solver_inertia, i);
   vec4 impulses = load_float4(contact_impulses.normal, i),
        friction = load_friction(parameters, contact_impulses.friction, i);
-  vec4 center_a = load_float4(patches.center, i), center_b = load_float4(patches.center, planes.stride + i);
+  vec4 offset = load_float4(patches.offset, i), center_a = load_float4(patches.center, i),
+       center_b = center_of_b(center_a, offset);
   delta_pose moved = load_delta_pose(solver_delta_pose, c);
   arm_shift shift = shift_of_contact(c, moved.translation);
   mask rough = c.friction > R(0.0);
@@ -438,7 +441,7 @@ SHARED void solve_contacts_item(GLOBAL const Parameters *parameters, read_contac
   }
 
   real slop = load_real(patches.slop, i);
-  normal_rows s = load_normal_rows(patches.points, planes, c, shift, impulses, i);
+  normal_rows s = load_normal_rows(patches.points, planes, c, offset, shift, impulses, i);
   c = solve_normals(parameters, c, &s, moved, patches.points, planes, slop, biased, i);
   vec4 normal_impulses = impulses_of(&s);
   store_float4(contact_impulses.normal, i, normal_impulses);
@@ -457,7 +460,7 @@ SHARED void solve_contacts_item(GLOBAL const Parameters *parameters, read_contac
 #define RESTITUTION_ROUNDS 8u
 
 /* After the last substep, points that carried an impulse get their target velocity. */
-SHARED void apply_restitution_item(read_contacts contacts, GLOBAL const float4 *constraint_points,
+SHARED void apply_restitution_item(GLOBAL const Parameters *parameters, read_contacts contacts, read_patches patches,
                                    GLOBAL const float4 *constraint_restitution, GLOBAL const float4 *solver_inertia,
                                    GLOBAL const float4 *solver_delta_pose, GLOBAL const uint *counts,
                                    GLOBAL float4 *constraint_normal_impulse, GLOBAL float4 *solver_velocity,
@@ -469,11 +472,11 @@ SHARED void apply_restitution_item(read_contacts contacts, GLOBAL const float4 *
   mask bounces = (target_velocity.x >= R(0.0)) | (target_velocity.y >= R(0.0)) | (target_velocity.z >= R(0.0)) |
                  (target_velocity.w >= R(0.0));
   if (!any_of(bounces)) return;
-  contact c = load_contact(contacts, solver_velocity, solver_inertia, i);
+  contact c = load_contact(parameters, contacts, solver_velocity, solver_inertia, i);
   contact before = c;
   vec4 impulses = load_float4(constraint_normal_impulse, i);
   arm_shift shift = load_arm_shift(solver_delta_pose, c);
-  normal_rows s = load_normal_rows(constraint_points, planes, c, shift, impulses, i);
+  normal_rows s = load_normal_rows(patches.points, planes, c, load_float4(patches.offset, i), shift, impulses, i);
   for (uint round = 0; round < RESTITUTION_ROUNDS; ++round) {
     real normal_impulses[4];
     for (uint k = 0; k < 4u; ++k) {

@@ -58,25 +58,26 @@ SHARED contact split_contact(contact c, real parts_a, real parts_b)
 }
 
 /* Runs once a step: computes the effective masses between parts, and the numbers of parts. */
-SHARED void split_masses_item(read_contacts contacts, read_patches patches, GLOBAL const float4 *solver_velocity,
-                              GLOBAL const float4 *solver_inertia, GLOBAL const uint *body_constraint_start,
-                              GLOBAL const uint *split_static_constraints, GLOBAL const uint *counts,
-                              GLOBAL float4 *split_mass, item_index i)
+SHARED void split_masses_item(GLOBAL const Parameters *parameters, read_contacts contacts, read_patches patches,
+                              GLOBAL const float4 *solver_velocity, GLOBAL const float4 *solver_inertia,
+                              GLOBAL const uint *body_constraint_start, GLOBAL const uint *split_static_constraints,
+                              GLOBAL const uint *counts, GLOBAL float4 *split_mass, item_index i)
 {
   point_planes planes = planes_of(counts);
-  contact c = load_contact(contacts, solver_velocity, solver_inertia, i);
+  contact c = load_contact(parameters, contacts, solver_velocity, solver_inertia, i);
   mask supported = (c.velocity_a.inverse_mass == R(0.0)) | (c.velocity_b.inverse_mass == R(0.0));
   real parts_a = parts_of(body_constraint_start, split_static_constraints, c.a, supported),
        parts_b = parts_of(body_constraint_start, split_static_constraints, c.b, supported);
   c = split_contact(c, parts_a, parts_b);
   body_pair parts = bodies_of(c);
+  vec4 offset = load_float4(patches.offset, i), center = load_float4(patches.center, i);
   real mass[4];
   for (uint k = 0; k < 4u; ++k) {
-    vec4 point_b = load_arm_of_b(patches.points, planes, k, i);
-    real whole = normal_mass(parts, xyz(load_arm_of_a(patches.points, planes, k, i)), xyz(point_b), c.normal);
-    mass[k] = choose(point_b.w > R(0.0), whole, (real)R(0.0));
+    vec3 arm_a = load_arm_of_a(patches.points, planes, k, i);
+    real whole = normal_mass(parts, arm_a, subtract(arm_a, xyz(offset)), c.normal);
+    mass[k] = choose(load_point_mass(patches.points, planes, k, i) > R(0.0), whole, (real)R(0.0));
   }
-  vec3 center_a = xyz(load_float4(patches.center, i)), center_b = xyz(load_float4(patches.center, planes.stride + i));
+  vec3 center_a = xyz(center), center_b = xyz(center_of_b(center, offset));
   store_float4(split_mass, i, make_vec4(mass[0], mass[1], mass[2], mass[3]));
   store_float4(
       split_mass, planes.stride + i,
@@ -112,20 +113,21 @@ SHARED void split_warm_start_item(GLOBAL const Parameters *parameters, read_cont
                                   GLOBAL const uint *counts, GLOBAL float4 *split_impulse, item_index i)
 {
   point_planes planes = planes_of(counts);
-  contact c = load_contact(contacts, solver_bodies.velocity, solver_bodies.inertia, i);
+  contact c = load_contact(parameters, contacts, solver_bodies.velocity, solver_bodies.inertia, i);
   arm_shift shift = load_arm_shift(solver_bodies.delta, c);
-  normal_rows s = load_normal_rows(patches.points, planes, c, shift, load_float4(constraint_normal_impulse, i), i);
-  vec3 center_a = add(xyz(load_float4(patches.center, i)), shift.a),
-       center_b = add(xyz(load_float4(patches.center, planes.stride + i)), shift.b);
-  wrench w = wrench_of(c, s, center_a, center_b, load_friction(parameters, constraint_friction_impulse, i));
+  vec4 offset = load_float4(patches.offset, i), center = load_float4(patches.center, i);
+  normal_rows s =
+      load_normal_rows(patches.points, planes, c, offset, shift, load_float4(constraint_normal_impulse, i), i);
+  wrench w = wrench_of(c, s, add(xyz(center), shift.a), add(xyz(center_of_b(center, offset)), shift.b),
+                       load_friction(parameters, constraint_friction_impulse, i));
   store_wrench(split_impulse, planes.stride, i, w);
 }
 
 /* The normal rows of a manifold between parts. */
-SHARED normal_rows load_split_normal_rows(GLOBAL const float4 *constraint_points, point_planes planes, contact c,
-                                          arm_shift shift, vec4 impulses, vec4 masses, item_index i)
+SHARED normal_rows load_split_normal_rows(read_patches patches, point_planes planes, contact c, arm_shift shift,
+                                          vec4 impulses, vec4 masses, item_index i)
 {
-  normal_rows s = load_normal_rows(constraint_points, planes, c, shift, impulses, i);
+  normal_rows s = load_normal_rows(patches.points, planes, c, load_float4(patches.offset, i), shift, impulses, i);
   for (uint k = 0; k < 4u; ++k) s.mass[k] = component(masses, (uint_lanes)k);
   return s;
 }
@@ -176,12 +178,14 @@ typedef struct {
   uint momentum;
 } split_row;
 
-SHARED split_row load_split_row(read_contacts contacts, GLOBAL const float4 *split_mass,
-                                read_solver_bodies solver_bodies, uint stride, uint momentum, item_index i)
+SHARED split_row load_split_row(GLOBAL const Parameters *parameters, read_contacts contacts,
+                                GLOBAL const float4 *split_mass, read_solver_bodies solver_bodies, uint stride,
+                                uint momentum, item_index i)
 {
   split_row r;
   vec4 other = load_float4(split_mass, stride + i);
-  r.c = split_contact(load_contact(contacts, solver_bodies.velocity, solver_bodies.inertia, i), other.z, other.w);
+  r.c = split_contact(load_contact(parameters, contacts, solver_bodies.velocity, solver_bodies.inertia, i), other.z,
+                      other.w);
   r.moved = load_delta_pose(solver_bodies.delta, r.c);
   r.shift = shift_of_contact(r.c, r.moved.translation);
   r.point_masses = load_float4(split_mass, i);
@@ -194,10 +198,10 @@ SHARED split_row load_split_row(read_contacts contacts, GLOBAL const float4 *spl
 SHARED real share_of_momentum(uint momentum) { return (real)momentum / ((real)momentum + R(3.0)); }
 
 /* Solves the friction of rows with friction, and returns its wrench beyond the impulses before. */
-SHARED wrench solve_split_friction(split_row *r, mask rough, read_patches patches, uint stride, real normal_impulse_sum,
+SHARED wrench solve_split_friction(split_row *r, mask rough, read_patches patches, real normal_impulse_sum,
                                    GLOBAL float4 *friction_impulse, GLOBAL float4 *rubbed, item_index i)
 {
-  vec4 center_a = load_float4(patches.center, i), center_b = load_float4(patches.center, stride + i);
+  vec4 center_a = load_float4(patches.center, i), center_b = center_of_b(center_a, load_float4(patches.offset, i));
   vec4 old = load_float4(friction_impulse, i);
   mask stale = masses_are_stale(r->moved, r->shift, center_a, center_b);
   solved sliding = solve_friction(r->c, stale, r->shift, extend(xyz(center_a), r->friction_mass),
@@ -219,8 +223,8 @@ SHARED void press_split_points(GLOBAL const Parameters *parameters, split_row *r
   real slop = load_real(patches.slop, i), leak = soft.impulse_scale, closed = dot3(r->c.normal, r->moved.translation);
   real target_impulse[4];
   for (uint k = 0; k < 4u; ++k) {
-    real started = load_arm_of_a(patches.points, planes, k, i).w, whole = load_arm_of_b(patches.points, planes, k, i).w;
-    real separation = started + closed +
+    real whole = load_point_mass(patches.points, planes, k, i);
+    real separation = load_separation(patches.points, planes, k, i) + closed +
                       (dot3(s->r_cross_n_b[k], r->moved.rotation_b) - dot3(s->r_cross_n_a[k], r->moved.rotation_a));
     real speed = speed_along(r->c, r->c.normal, s->r_cross_n_a[k], s->r_cross_n_b[k]);
     soft.impulse_scale =
@@ -254,17 +258,17 @@ SHARED void split_solve_item(GLOBAL const Parameters *parameters, read_contacts 
 {
   uint biased = pass == PASS_BIASED ? 1u : 0u;
   point_planes planes = planes_of(counts);
-  split_row r = load_split_row(contacts, split_mass, solver_bodies, planes.stride, momentum, i);
+  split_row r = load_split_row(parameters, contacts, split_mass, solver_bodies, planes.stride, momentum, i);
   vec4 impulses = load_float4(contact_impulses.normal, i);
   vec3 none = make_vec3(R(0.0), R(0.0), R(0.0));
   wrench rubbed = {none, none, none};
   mask rough = r.c.friction > R(0.0);
   if (HAS_FEATURE(parameters, FRICTION) && any_of(rough)) {
     real normal_impulse_sum = (impulses.x + impulses.y) + (impulses.z + impulses.w);
-    rubbed = solve_split_friction(&r, rough, patches, planes.stride, normal_impulse_sum, contact_impulses.friction,
+    rubbed = solve_split_friction(&r, rough, patches, normal_impulse_sum, contact_impulses.friction,
                                   iterates.previous_friction, i);
   }
-  normal_rows s = load_split_normal_rows(patches.points, planes, r.c, r.shift, impulses, r.point_masses, i);
+  normal_rows s = load_split_normal_rows(patches, planes, r.c, r.shift, impulses, r.point_masses, i);
   press_split_points(parameters, &r, &s, patches, planes, biased, i);
   vec4 next = keep_split_impulses(parameters, impulses_of(&s), momentum, planes.stride, contact_impulses,
                                   iterates.previous_normal, i);
@@ -273,7 +277,7 @@ SHARED void split_solve_item(GLOBAL const Parameters *parameters, read_contacts 
 }
 
 /* Makes one round of restitution: points that carried an impulse approach their target velocity. */
-SHARED void split_restitution_item(read_contacts contacts, read_patches patches,
+SHARED void split_restitution_item(GLOBAL const Parameters *parameters, read_contacts contacts, read_patches patches,
                                    GLOBAL const float4 *constraint_restitution, GLOBAL const float4 *split_mass,
                                    read_solver_bodies solver_bodies, GLOBAL const uint *counts,
                                    GLOBAL float4 *constraint_normal_impulse, GLOBAL float4 *split_impulse, item_index i)
@@ -282,10 +286,11 @@ SHARED void split_restitution_item(read_contacts contacts, read_patches patches,
   vec4 target_velocity = load_float4(constraint_restitution, i),
        highest = load_float4(constraint_restitution, planes.stride + i);
   vec4 masses = load_float4(split_mass, i), other = load_float4(split_mass, planes.stride + i);
-  contact c = split_contact(load_contact(contacts, solver_bodies.velocity, solver_bodies.inertia, i), other.z, other.w);
+  contact c = split_contact(load_contact(parameters, contacts, solver_bodies.velocity, solver_bodies.inertia, i),
+                            other.z, other.w);
   vec4 impulses = load_float4(constraint_normal_impulse, i);
   normal_rows s =
-      load_split_normal_rows(patches.points, planes, c, load_arm_shift(solver_bodies.delta, c), impulses, masses, i);
+      load_split_normal_rows(patches, planes, c, load_arm_shift(solver_bodies.delta, c), impulses, masses, i);
   real normal_impulses[4];
   for (uint k = 0; k < 4u; ++k) {
     real target = component(target_velocity, (uint_lanes)k);
@@ -334,10 +339,10 @@ SHARED impulse_sum add_term(impulse_sum sum, impulse_sum term, mask wanted, uint
 }
 
 /* Joins the parts of a body. trees: whether the sums of bodies with long lists have been computed. */
-SHARED void split_apply_item(GLOBAL const uint *body_constraint_start, GLOBAL const uint *body_constraint,
-                             GLOBAL const float4 *split_impulse, GLOBAL const float4 *split_partial,
-                             GLOBAL const float4 *solver_inertia, GLOBAL const uint *counts,
-                             GLOBAL float4 *solver_velocity, uint trees, item_index i)
+SHARED void split_apply_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_constraint_start,
+                             GLOBAL const uint *body_constraint, GLOBAL const float4 *split_impulse,
+                             GLOBAL const float4 *split_partial, GLOBAL const float4 *solver_inertia,
+                             GLOBAL const uint *counts, GLOBAL float4 *solver_velocity, uint trees, item_index i)
 {
   uint stride = counts[CAPACITY_PAIRS];
   uint_lanes start = load_uint(body_constraint_start, i), entries = load_uint(body_constraint_start, i + 1u) - start;
@@ -361,7 +366,7 @@ SHARED void split_apply_item(GLOBAL const uint *body_constraint_start, GLOBAL co
   }
   spatial_velocity m = load_velocity(solver_velocity, i);
   real locks;
-  symmetric3 inertia = load_inertia_and_locks(solver_inertia, i, &locks);
+  symmetric3 inertia = load_inertia_and_locks(parameters, solver_inertia, i, m, &locks);
   m.linear = pushed(m.linear, locks, sum.linear, m.inverse_mass);
   m.angular = add(m.angular, symmetric_times(inertia, sum.angular));
   mask changed = is_nonzero(sum.linear) | is_nonzero(sum.angular); /* adding 0 would turn -0 into +0 */

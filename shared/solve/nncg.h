@@ -46,8 +46,8 @@ SHARED real energy_of(real change, real mass)
 }
 
 /* Computes, after a pass, the square of its change at this manifold. */
-SHARED void nncg_change_item(GLOBAL const Parameters *parameters, GLOBAL const float4 *constraint_points,
-                             GLOBAL const float4 *constraint_center, GLOBAL const float4 *constraint_normal_impulse,
+SHARED void nncg_change_item(GLOBAL const Parameters *parameters, read_patches patches,
+                             GLOBAL const float4 *constraint_normal_impulse,
                              GLOBAL const float4 *constraint_friction_impulse, GLOBAL const float4 *nncg_impulse,
                              GLOBAL const uint *counts, GLOBAL memory_real *nncg_square, item_index i)
 {
@@ -55,12 +55,12 @@ SHARED void nncg_change_item(GLOBAL const Parameters *parameters, GLOBAL const f
   vec4 normal_impulses = load_float4(constraint_normal_impulse, i), old = load_float4(nncg_impulse, i);
   vec4 friction = load_friction(parameters, constraint_friction_impulse, i),
        old_friction = load_friction(parameters, nncg_impulse, stride + i);
-  real slide_mass = load_float4(constraint_center, i).w, twist_mass = load_float4(constraint_center, stride + i).w;
+  real slide_mass = load_float4(patches.center, i).w, twist_mass = load_float4(patches.offset, i).w;
   real sum = energy_of(friction.x - old_friction.x, slide_mass) + energy_of(friction.y - old_friction.y, slide_mass) +
              energy_of(friction.z - old_friction.z, twist_mass);
   for (uint k = 0; k < 4u; ++k)
     sum = sum + energy_of(component(normal_impulses, (uint_lanes)k) - component(old, (uint_lanes)k),
-                          load_arm_of_b(constraint_points, planes_of(counts), k, i).w);
+                          load_point_mass(patches.points, planes_of(counts), k, i));
   store_real(nncg_square, i, sum);
 }
 
@@ -107,12 +107,11 @@ SHARED void nncg_advance_item(GLOBAL const Parameters *parameters, read_contacts
   store_float4(constraint_normal_impulse, i, normal_impulses);
   store_friction(parameters, constraint_friction_impulse, i, friction);
 
-  contact c = load_contact(contacts, solver_velocity, solver_inertia, i);
+  contact c = load_contact(parameters, contacts, solver_velocity, solver_inertia, i);
   arm_shift shift = load_arm_shift(solver_delta_pose, c);
-  normal_rows s = load_normal_rows(patches.points, planes_of(counts), c, shift, normal_step, i);
-  vec3 center_a = add(xyz(load_float4(patches.center, i)), shift.a),
-       center_b = add(xyz(load_float4(patches.center, stride + i)), shift.b);
-  wrench w = wrench_of(c, s, center_a, center_b, friction_step);
+  vec4 offset = load_float4(patches.offset, i), center = load_float4(patches.center, i);
+  normal_rows s = load_normal_rows(patches.points, planes_of(counts), c, offset, shift, normal_step, i);
+  wrench w = wrench_of(c, s, add(xyz(center), shift.a), add(xyz(center_of_b(center, offset)), shift.b), friction_step);
   store_contact_velocities(solver_velocity,
                            apply_impulse(c, w.impulse, w.angular_impulse_a, w.angular_impulse_b, R(1.0)));
 }

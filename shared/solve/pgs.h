@@ -48,21 +48,22 @@ SHARED void pgs_normals_item(GLOBAL const Parameters *parameters, read_contacts 
 {
   uint biased = pass == PASS_BIASED ? 1u : 0u;
   point_planes planes = planes_of(counts);
-  contact c = load_contact(contacts, solver_velocity, solver_inertia, i);
+  contact c = load_contact(parameters, contacts, solver_velocity, solver_inertia, i);
   vec4 old = load_float4(constraint_normal_impulse, i);
   delta_pose moved = load_delta_pose(solver_delta_pose, c);
   arm_shift shift = shift_of_contact(c, moved.translation);
   real closed = dot3(c.normal, moved.translation);
   real slop = load_real(patches.slop, i);
+  vec4 offset = load_float4(patches.offset, i);
   real impulse[4];
   for (uint k = 0; k < 4u; ++k) {
-    vec4 point_a = load_arm_of_a(patches.points, planes, k, i), point_b = load_arm_of_b(patches.points, planes, k, i);
-    vec3 r_cross_n_a = cross3(add(xyz(point_a), shift.a), c.normal),
-         r_cross_n_b = cross3(add(xyz(point_b), shift.b), c.normal);
-    real separation = point_a.w + closed + (dot3(r_cross_n_b, moved.rotation_b) - dot3(r_cross_n_a, moved.rotation_a));
+    vec3 arm_a = load_arm_of_a(patches.points, planes, k, i), arm_b = subtract(arm_a, xyz(offset));
+    vec3 r_cross_n_a = cross3(add(arm_a, shift.a), c.normal), r_cross_n_b = cross3(add(arm_b, shift.b), c.normal);
+    real separation = load_separation(patches.points, planes, k, i) + closed +
+                      (dot3(r_cross_n_b, moved.rotation_b) - dot3(r_cross_n_a, moved.rotation_a));
     real before = component(old, (uint_lanes)k);
     impulse[k] = pgs_impulse(parameters, slop, separation, speed_along(c, c.normal, r_cross_n_a, r_cross_n_b),
-                             point_b.w, before, biased);
+                             load_point_mass(patches.points, planes, k, i), before, biased);
     c = apply_impulse(c, c.normal, r_cross_n_a, r_cross_n_b, impulse[k] - before);
   }
   vec4 normal_impulses = make_vec4(impulse[0], impulse[1], impulse[2], impulse[3]);
@@ -73,19 +74,19 @@ SHARED void pgs_normals_item(GLOBAL const Parameters *parameters, read_contacts 
   store_contact_velocities(solver_velocity, c);
 }
 
-SHARED void pgs_friction_item(read_contacts contacts, GLOBAL const float4 *constraint_center,
+SHARED void pgs_friction_item(GLOBAL const Parameters *parameters, read_contacts contacts, read_patches patches,
                               GLOBAL const float4 *constraint_normal_impulse, GLOBAL const float4 *solver_inertia,
-                              GLOBAL const float4 *solver_delta_pose, GLOBAL const uint *counts,
-                              GLOBAL float4 *constraint_friction_impulse, GLOBAL float4 *solver_velocity, item_index i)
+                              GLOBAL const float4 *solver_delta_pose, GLOBAL float4 *constraint_friction_impulse,
+                              GLOBAL float4 *solver_velocity, item_index i)
 {
-  contact c = load_contact(contacts, solver_velocity, solver_inertia, i);
+  contact c = load_contact(parameters, contacts, solver_velocity, solver_inertia, i);
   mask rough = c.friction > R(0.0);
   if (!any_of(rough)) return;
   vec4 normal_impulses = load_float4(constraint_normal_impulse, i);
   real normal_impulse_sum = (normal_impulses.x + normal_impulses.y) + (normal_impulses.z + normal_impulses.w);
   mask stale = rough & (!rough); /* pgs_masses has just made them */
-  solved sliding = solve_friction(c, stale, load_arm_shift(solver_delta_pose, c), load_float4(constraint_center, i),
-                                  load_float4(constraint_center, counts[CAPACITY_PAIRS] + i),
+  vec4 center_a = load_float4(patches.center, i), center_b = center_of_b(center_a, load_float4(patches.offset, i));
+  solved sliding = solve_friction(c, stale, load_arm_shift(solver_delta_pose, c), center_a, center_b,
                                   load_float4(constraint_friction_impulse, i), normal_impulse_sum);
   store_float4_if(rough, constraint_friction_impulse, i, sliding.impulse);
   store_contact_velocities(solver_velocity, with_velocities_if(rough, c, sliding.c));
@@ -93,25 +94,27 @@ SHARED void pgs_friction_item(read_contacts contacts, GLOBAL const float4 *const
 
 /* Recomputes the effective masses at the current poses. Many passes with the masses of another pose do not converge: if
  * a long body has turned, a row whose mass is more than twice the right one doubles its error in every pass. */
-SHARED void pgs_masses_item(read_contacts contacts, read_solver_bodies solver_bodies, GLOBAL const uint *counts,
-                            GLOBAL float4 *constraint_points, GLOBAL float4 *constraint_center, item_index i)
+SHARED void pgs_masses_item(GLOBAL const Parameters *parameters, read_contacts contacts,
+                            read_solver_bodies solver_bodies, GLOBAL const uint *counts,
+                            GLOBAL memory_real *constraint_points, GLOBAL float4 *constraint_center,
+                            GLOBAL float4 *constraint_offset, item_index i)
 {
   point_planes planes = planes_of(counts);
-  contact c = load_contact(contacts, solver_bodies.velocity, solver_bodies.inertia, i);
+  contact c = load_contact(parameters, contacts, solver_bodies.velocity, solver_bodies.inertia, i);
   body_pair bodies = bodies_of(c);
+  vec4 offset = load_float4(constraint_offset, i);
   arm_shift shift = load_arm_shift(solver_bodies.delta, c);
   for (uint k = 0; k < planes.points; ++k) {
-    vec4 point_a = load_arm_of_a(constraint_points, planes, k, i),
-         point_b = load_arm_of_b(constraint_points, planes, k, i);
-    real mass = normal_mass(bodies, add(xyz(point_a), shift.a), add(xyz(point_b), shift.b), c.normal);
-    store_arm_of_b(constraint_points, planes, k, i,
-                   extend(xyz(point_b), choose(point_b.w > R(0.0), mass, (real)R(0.0))));
+    vec3 arm_a = load_arm_of_a(constraint_points, planes, k, i), arm_b = subtract(arm_a, xyz(offset));
+    real mass = normal_mass(bodies, add(arm_a, shift.a), add(arm_b, shift.b), c.normal);
+    store_point_mass_if(load_point_mass(constraint_points, planes, k, i) > R(0.0), constraint_points, planes, k, i,
+                        mass);
   }
-  vec3 center_a = xyz(load_float4(constraint_center, i)),
-       center_b = xyz(load_float4(constraint_center, planes.stride + i));
+  vec4 center = load_float4(constraint_center, i);
+  vec3 center_a = xyz(center), center_b = xyz(center_of_b(center, offset));
   store_float4(constraint_center, i,
                extend(center_a, friction_mass(bodies, add(center_a, shift.a), add(center_b, shift.b), c.normal)));
-  store_float4(constraint_center, planes.stride + i, extend(center_b, twist_mass(bodies, c.normal)));
+  store_float4(constraint_offset, i, extend(xyz(offset), twist_mass(bodies, c.normal)));
 }
 
 #endif

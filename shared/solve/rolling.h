@@ -20,13 +20,13 @@
 
 SHARED mask resists(vec4 resistance) { return (resistance.x > R(0.0)) | (resistance.y > R(0.0)); }
 
-SHARED void warm_start_rolling_item(read_contacts contacts, GLOBAL const float4 *constraint_rolling,
-                                    GLOBAL const float4 *solver_inertia, GLOBAL const uint *counts,
-                                    GLOBAL float4 *solver_velocity, item_index i)
+SHARED void warm_start_rolling_item(GLOBAL const Parameters *parameters, read_contacts contacts,
+                                    GLOBAL const float4 *constraint_rolling, GLOBAL const float4 *solver_inertia,
+                                    GLOBAL const uint *counts, GLOBAL float4 *solver_velocity, item_index i)
 {
   mask wanted = resists(load_float4(constraint_rolling, counts[CAPACITY_PAIRS] + i));
   if (!any_of(wanted)) return;
-  contact c = load_contact(contacts, solver_velocity, solver_inertia, i);
+  contact c = load_contact(parameters, contacts, solver_velocity, solver_inertia, i);
   vec3 torque = xyz(load_float4(constraint_rolling, i));
   store_contact_velocities(solver_velocity, with_velocities_if(wanted, c, apply_turn(c, torque, torque, R(1.0))));
 }
@@ -58,14 +58,15 @@ SHARED vec3 onto_disc(vec3 v, real limit)
   return scale(v, choose(outside, limit / square_root(choose(outside, squared, (real)R(1.0))), (real)R(1.0)));
 }
 
-SHARED void solve_rolling_item(read_contacts contacts, GLOBAL const float4 *constraint_normal_impulse,
-                               GLOBAL const float4 *solver_inertia, GLOBAL const uint *counts,
-                               GLOBAL float4 *constraint_rolling, GLOBAL float4 *solver_velocity, item_index i)
+SHARED void solve_rolling_item(GLOBAL const Parameters *parameters, read_contacts contacts,
+                               GLOBAL const float4 *constraint_normal_impulse, GLOBAL const float4 *solver_inertia,
+                               GLOBAL const uint *counts, GLOBAL float4 *constraint_rolling,
+                               GLOBAL float4 *solver_velocity, item_index i)
 {
   vec4 resistance = load_float4(constraint_rolling, counts[CAPACITY_PAIRS] + i);
   mask wanted = resists(resistance);
   if (!any_of(wanted)) return;
-  contact c = load_contact(contacts, solver_velocity, solver_inertia, i);
+  contact c = load_contact(parameters, contacts, solver_velocity, solver_inertia, i);
   vec4 normal_impulses = load_float4(constraint_normal_impulse, i);
   real normal_impulse_sum = (normal_impulses.x + normal_impulses.y) + (normal_impulses.z + normal_impulses.w);
   vec3 old = xyz(load_float4(constraint_rolling, i)), speed = subtract(c.velocity_b.angular, c.velocity_a.angular);

@@ -90,11 +90,11 @@ SHARED void xpbd_prepare_item(GLOBAL const uint *constraint_pair, GLOBAL const u
 
 /* Solves the points of a manifold together, each by the error of its position. */
 SHARED contact xpbd_press(GLOBAL const Parameters *parameters, contact c, normal_rows *s, delta_pose moved,
-                          GLOBAL const float4 *constraint_points, point_planes planes, item_index i)
+                          GLOBAL const memory_real *constraint_points, point_planes planes, item_index i)
 {
   real closed = dot3(c.normal, moved.translation), target_impulse[4];
   for (uint k = 0; k < 4u; ++k) {
-    real separation = load_arm_of_a(constraint_points, planes, k, i).w + closed +
+    real separation = load_separation(constraint_points, planes, k, i) + closed +
                       (dot3(s->r_cross_n_b[k], moved.rotation_b) - dot3(s->r_cross_n_a[k], moved.rotation_a));
     real wanted = maximum(separation * parameters->inverse_substep, -parameters->push_speed);
     real speed = speed_along(c, c.normal, s->r_cross_n_a[k], s->r_cross_n_b[k]);
@@ -105,9 +105,9 @@ SHARED contact xpbd_press(GLOBAL const Parameters *parameters, contact c, normal
 
 /* Solves friction against the current sliding and earlier slip. friction: its impulse so far. */
 SHARED solved xpbd_hold(GLOBAL const Parameters *parameters, contact c, delta_pose moved, arm_shift shift,
-                        read_patches patches, uint stride, vec4 slip_before, real limit, vec4 friction, item_index i)
+                        read_patches patches, vec4 slip_before, real limit, vec4 friction, item_index i)
 {
-  vec4 center_a = load_float4(patches.center, i), center_b = load_float4(patches.center, stride + i);
+  vec4 center_a = load_float4(patches.center, i), center_b = center_of_b(center_a, load_float4(patches.offset, i));
   vec3 arm_a = add(xyz(center_a), shift.a), arm_b = add(xyz(center_b), shift.b);
   slipped slip = slip_since(slip_before, c, moved, arm_a, arm_b, parameters->inverse_substep);
   solved held = xpbd_twist(c, spin_between(c) + slip.twist, center_b.w, limit, friction);
@@ -123,7 +123,7 @@ SHARED void xpbd_positions_item(GLOBAL const Parameters *parameters, read_contac
                                 uint first_iteration, item_index i)
 {
   point_planes planes = planes_of(counts);
-  contact c = load_contact(contacts, solver_velocity, solver_inertia, i);
+  contact c = load_contact(parameters, contacts, solver_velocity, solver_inertia, i);
   vec4 impulses = load_float4(contact_impulses.normal, i),
        friction = load_friction(parameters, contact_impulses.friction, i);
   if (first_iteration != 0u) {
@@ -133,14 +133,14 @@ SHARED void xpbd_positions_item(GLOBAL const Parameters *parameters, read_contac
   }
   delta_pose moved = load_delta_pose(solver_delta_pose, c);
   arm_shift shift = shift_of_contact(c, moved.translation);
-  normal_rows s = load_normal_rows(patches.points, planes, c, shift, impulses, i);
+  normal_rows s = load_normal_rows(patches.points, planes, c, load_float4(patches.offset, i), shift, impulses, i);
   c = xpbd_press(parameters, c, &s, moved, patches.points, planes, i);
   vec4 normal_impulses = impulses_of(&s);
   store_float4(contact_impulses.normal, i, normal_impulses);
   keep_highest_impulses(parameters, contact_impulses.restitution, planes.stride, normal_impulses, i);
   mask rough = c.friction > R(0.0);
   if (HAS_FEATURE(parameters, FRICTION) && any_of(rough)) {
-    solved held = xpbd_hold(parameters, c, moved, shift, patches, planes.stride, load_float4(constraint_slip, i),
+    solved held = xpbd_hold(parameters, c, moved, shift, patches, load_float4(constraint_slip, i),
                             limit_of(c, normal_impulses), friction, i);
     c = with_velocities_if(rough, c, held.c);
     store_float4_if(rough, contact_impulses.friction, i, held.impulse);
@@ -157,14 +157,14 @@ SHARED void xpbd_velocities_item(GLOBAL const Parameters *parameters, read_conta
                                  item_index i)
 {
   point_planes planes = planes_of(counts);
-  contact c = load_contact(contacts, solver_velocity, solver_inertia, i);
+  contact c = load_contact(parameters, contacts, solver_velocity, solver_inertia, i);
   vec4 impulses = load_float4(constraint_normal_impulse, i);
   mask pressing = (impulses.x > R(0.0)) | (impulses.y > R(0.0)) | (impulses.z > R(0.0)) | (impulses.w > R(0.0));
   if (!any_of(pressing)) return;
   contact before = c;
   delta_pose moved = load_delta_pose(solver_delta_pose, c);
   arm_shift shift = shift_of_contact(c, moved.translation);
-  normal_rows s = load_normal_rows(patches.points, planes, c, shift, impulses, i);
+  normal_rows s = load_normal_rows(patches.points, planes, c, load_float4(patches.offset, i), shift, impulses, i);
   real target_impulse[4];
   for (uint k = 0; k < 4u; ++k) {
     real resting =
@@ -175,7 +175,7 @@ SHARED void xpbd_velocities_item(GLOBAL const Parameters *parameters, read_conta
   store_float4_if(pressing, constraint_normal_impulse, i, impulses_of(&s));
   mask rough = pressing & (c.friction > R(0.0));
   if (HAS_FEATURE(parameters, FRICTION) && any_of(rough)) {
-    vec4 center_a = load_float4(patches.center, i), center_b = load_float4(patches.center, planes.stride + i);
+    vec4 center_a = load_float4(patches.center, i), center_b = center_of_b(center_a, load_float4(patches.offset, i));
     vec3 arm_a = add(xyz(center_a), shift.a), arm_b = add(xyz(center_b), shift.b);
     real limit = limit_of(c, impulses_of(&s));
     solved held = xpbd_twist(c, spin_between(c), center_b.w, limit, load_float4(constraint_friction_impulse, i));
@@ -190,18 +190,18 @@ SHARED void xpbd_velocities_item(GLOBAL const Parameters *parameters, read_conta
  * nothing either. */
 #define XPBD_HOLDS R(0.999)
 
-SHARED void xpbd_cache_item(GLOBAL const uint *constraint_pair, read_contacts contacts,
-                            GLOBAL const float4 *constraint_center, GLOBAL const float4 *constraint_slip,
+SHARED void xpbd_cache_item(GLOBAL const Parameters *parameters, GLOBAL const uint *constraint_pair,
+                            read_contacts contacts, read_patches patches, GLOBAL const float4 *constraint_slip,
                             GLOBAL const float4 *constraint_normal_impulse,
                             GLOBAL const float4 *constraint_friction_impulse, read_solver_bodies solver_bodies,
-                            GLOBAL const uint *counts, GLOBAL float4 *cached_slip, item_index i)
+                            GLOBAL float4 *cached_slip, item_index i)
 {
-  contact c = load_contact(contacts, solver_bodies.velocity, solver_bodies.inertia, i);
+  contact c = load_contact(parameters, contacts, solver_bodies.velocity, solver_bodies.inertia, i);
   delta_pose moved = load_delta_pose(solver_bodies.delta, c);
   arm_shift shift = shift_of_contact(c, moved.translation);
-  slipped slip =
-      slip_since(load_float4(constraint_slip, i), c, moved, add(xyz(load_float4(constraint_center, i)), shift.a),
-                 add(xyz(load_float4(constraint_center, counts[CAPACITY_PAIRS] + i)), shift.b), R(1.0));
+  vec4 center_a = load_float4(patches.center, i), center_b = center_of_b(center_a, load_float4(patches.offset, i));
+  slipped slip = slip_since(load_float4(constraint_slip, i), c, moved, add(xyz(center_a), shift.a),
+                            add(xyz(center_b), shift.b), R(1.0));
   vec4 normal_impulses = load_float4(constraint_normal_impulse, i),
        friction = load_float4(constraint_friction_impulse, i);
   real limit =

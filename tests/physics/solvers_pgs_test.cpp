@@ -90,8 +90,9 @@ public:
     normal_ = memory_.read<float4>(Buffer::constraint_normal, count_);
     impulse_ = memory_.read<float4>(Buffer::constraint_normal_impulse, count_);
     friction_ = memory_.read<float4>(Buffer::constraint_friction_impulse, count_);
-    center_ = memory_.read<float4>(Buffer::constraint_center, 2 * size_t{stride_});
-    points_ = memory_.read<float4>(Buffer::constraint_points, 8 * size_t{stride_});
+    center_ = memory_.read<float4>(Buffer::constraint_center, count_);
+    offset_ = memory_.read<float4>(Buffer::constraint_offset, count_);
+    points_ = memory_.read_reals(Buffer::constraint_points, 20 * size_t{stride_});
   }
 
   double joules() const
@@ -116,12 +117,13 @@ private:
     const float impulses[] = {impulse_[i].x, impulse_[i].y, impulse_[i].z, impulse_[i].w};
     double sum = 0;
     for (uint32_t k = 0; k < 4; ++k) {
-      const float4 &point_a = points_[stride_ * k + i], &point_b = points_[stride_ * (k + 4) + i];
-      const double mass = point_b.w, separation = point_a.w, h = double(settings_.step) / settings_.substeps;
+      const auto number = [&](uint32_t n) { return points_[size_t{stride_} * (5 * k + n) + i]; };
+      const Vector arm(number(0), number(1), number(2));
+      const double mass = number(4), separation = number(3), h = double(settings_.step) / settings_.substeps;
       if (mass == 0) continue;
       const double push = std::max(0.2 / h * std::min(separation + slop_[i], 0.0), -double(settings_.push_speed));
       const double speed =
-          slide_at(i, xyz(point_a), xyz(point_b)).dot(xyz(normal_[i])) + (separation > 0 ? separation / h : push);
+          slide_at(i, arm, arm - xyz(offset_[i])).dot(xyz(normal_[i])) + (separation > 0 ? separation / h : push);
       const double change = std::max(impulses[k] - mass * speed, 0.0) - impulses[k];
       sum += change * change / mass;
     }
@@ -130,10 +132,10 @@ private:
 
   double of_friction(uint32_t i) const
   {
-    const float4 &center_a = center_[i], &center_b = center_[stride_ + i];
-    const double mass = center_a.w,
+    const Vector arm = xyz(center_[i]);
+    const double mass = center_[i].w,
                  limit = normal_[i].w * (double(impulse_[i].x) + impulse_[i].y + impulse_[i].z + impulse_[i].w);
-    const Vector n = xyz(normal_[i]), slide = slide_at(i, xyz(center_a), xyz(center_b));
+    const Vector n = xyz(normal_[i]), slide = slide_at(i, arm, arm - xyz(offset_[i]));
     const double sign = n.z() >= 0 ? 1 : -1, a = -1 / (sign + n.z()), b = n.x() * n.y() * a;
     const Vector first(1 + sign * n.x() * n.x() * a, sign * b, -sign * n.x()),
         second(b, sign + n.y() * n.y() * a, -n.y());
@@ -147,8 +149,8 @@ private:
   const Settings settings_;
   uint32_t stride_, count_;
   std::vector<uint32_t> a_, b_;
-  std::vector<double> slop_;
-  std::vector<float4> velocity_, normal_, impulse_, friction_, center_, points_;
+  std::vector<double> slop_, points_;
+  std::vector<float4> velocity_, normal_, impulse_, friction_, center_, offset_;
 };
 
 /* After so many passes of the first step, which has nothing to warm start from: relative to the residual of no

@@ -37,7 +37,8 @@ TANDEM_API Buffer buffer_named(const std::string &name);
  * will run again has none.
  */
 enum class StepPoint : uint8_t {
-  begin,       /* bodies are prepared: solver_velocity and solver_inertia hold the result of the last step */
+  begin,       /* bodies are prepared: solver_velocity and, where some body's moments differ, solver_inertia hold the
+                  result of the last step */
   pairs,       /* pair_a and pair_b list the pairs that may touch, sorted */
   contacts,    /* manifolds are final: a kernel may drop or change them before they become constraints */
   constraints, /* constraints stand in the order of their colours */

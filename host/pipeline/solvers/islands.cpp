@@ -92,28 +92,29 @@ struct Rows {
     read_indices(memory, Buffer::constraint_b, count, stride, b);
     read_planes(memory, Buffer::constraint_normal, 1, count, stride, normal);
     read_points(memory, counts[CAPACITY_POINTS]);
-    read_planes(memory, Buffer::constraint_center, 2, count, stride, center);
+    read_planes(memory, Buffer::constraint_center, 1, count, stride, center);
+    read_planes(memory, Buffer::constraint_offset, 1, count, stride, offset);
     read_planes(memory, Buffer::constraint_normal_impulse, 1, count, stride, normal_impulse);
     read_friction(memory);
     const size_t body_rows = 2 * size_t{counts[COUNT_BODIES]};
     read_planes(memory, Buffer::solver_velocity, 1, body_rows, body_rows, velocity);
-    read_planes(memory, Buffer::solver_inertia, 1, body_rows, body_rows, inertia);
+    if (has_tensors()) read_planes(memory, Buffer::solver_inertia, 1, body_rows, body_rows, inertia);
     read_planes(memory, Buffer::solver_delta_pose, 1, body_rows, body_rows, delta);
     read_reals(memory, Buffer::constraint_slop, count, stride, slop);
     if (bounces()) read_planes(memory, Buffer::constraint_restitution, 2, count, stride, restitution);
   }
 
   /* Points without a plane are zeros (shared/point_rows.h). */
-  void read_points(Memory &memory, size_t planes)
+  void read_points(Memory &memory, size_t of_pair)
   {
-    read_planes(memory, Buffer::constraint_points, 2 * planes, count, stride, points);
-    make_room(points, 8 * size_t{stride});
-    points.resize(8 * size_t{count});
-    if (planes == 4) return;
-    const auto arms_of_b = points.begin() + 4 * static_cast<ptrdiff_t>(count);
-    std::copy_n(points.begin() + count, count, arms_of_b);
-    std::fill(points.begin() + count, arms_of_b, float4{});
-    std::fill(arms_of_b + count, points.end(), float4{});
+    make_room(points, 4 * POINT_NUMBERS * size_t{stride});
+    points.assign(4 * POINT_NUMBERS * size_t{count}, 0.0);
+    for (size_t plane = 0; plane < of_pair * POINT_NUMBERS; ++plane)
+      memory.read_reals(Buffer::constraint_points, points.data() + plane * count, count, plane * stride);
+  }
+  double of_point(uint32_t constraint, uint32_t k, uint32_t number) const
+  {
+    return points[size_t{count} * (k * POINT_NUMBERS + number) + constraint];
   }
 
   /* A scene without friction has no rows: shared/friction_rows.h. */
@@ -126,9 +127,15 @@ struct Rows {
 
   bool bounces() const { return HAS_FEATURE(&parameters, RESTITUTION); }
   bool rubs() const { return HAS_FEATURE(&parameters, FRICTION); }
+  bool has_tensors() const { return HAS_FEATURE(&parameters, GYROSCOPIC); }
   uint32_t bodies() const { return static_cast<uint32_t>(velocity.size() / 2); }
   bool moves(uint32_t body) const { return velocity[2 * body].w > 0; }
-  double locks(uint32_t body) const { return inertia[2 * body + 1].z; }
+  double locks(uint32_t body) const { return has_tensors() ? inertia[2 * body + 1].z : 0; }
+  vec3 turned_by(uint32_t body, const vec3 &angular_impulse) const
+  {
+    const spatial_velocity m = load_velocity(velocity.data(), body);
+    return symmetric_times(load_inertia(&parameters, inertia.data(), body, m), angular_impulse);
+  }
   vec3 free_part(uint32_t body, const vec3 &v) const { return without_locked_axes(v, to_uint(locks(body))); }
 
   void write(Memory &memory) const
@@ -142,14 +149,14 @@ struct Rows {
   uint32_t count = 0, stride = 0;
   Parameters parameters{};
   std::vector<uint32_t> a, b;
-  std::vector<float4> normal, points, center, normal_impulse, friction_impulse, velocity, inertia, delta, restitution;
-  std::vector<double> slop; /* or the flag for a deep contact: slop_or_deep */
+  std::vector<float4> normal, center, offset, normal_impulse, friction_impulse, velocity, inertia, delta, restitution;
+  std::vector<double> points, slop; /* slop, or the flag for a deep contact: slop_or_deep */
 };
 
 uint32_t points_of(const Rows &rows, uint32_t constraint)
 {
   uint32_t points = 0;
-  for (uint32_t k = 4; k < 8; ++k) points += rows.points[size_t{rows.count} * k + constraint].w > 0;
+  for (uint32_t k = 0; k < 4; ++k) points += rows.of_point(constraint, k, POINT_MASS) > 0;
   return points;
 }
 
@@ -356,14 +363,14 @@ void Island::add_row(const Row &row, double bias)
 
 void Island::add_constraint(uint32_t i)
 {
-  const contact c = load_contact({rows_.a.data(), rows_.b.data(), rows_.normal.data()}, rows_.velocity.data(),
-                                 rows_.inertia.data(), i);
+  const contact c = load_contact(&rows_.parameters, {rows_.a.data(), rows_.b.data(), rows_.normal.data()},
+                                 rows_.velocity.data(), rows_.inertia.data(), i);
   const delta_pose moved = load_delta_pose(rows_.delta.data(), c);
   const arm_shift shift = shift_of_contact(c, moved.translation);
   const float4 old = rows_.normal_impulse[i];
   const point_planes planes{rows_.count, 4};
-  const normal_rows s =
-      load_normal_rows(rows_.points.data(), planes, c, shift, make_vec4(old.x, old.y, old.z, old.w), i);
+  const normal_rows s = load_normal_rows(rows_.points.data(), planes, c, load_float4(rows_.offset.data(), i), shift,
+                                         make_vec4(old.x, old.y, old.z, old.w), i);
   ManifoldRows manifold;
   manifold.first = static_cast<uint32_t>(list_.size());
   add_normals(i, c, s, moved);
@@ -372,7 +379,7 @@ void Island::add_constraint(uint32_t i)
   manifold.friction = c.friction;
   manifold.twist_radius = rows_.friction_impulse[i].w;
   manifold.slides = c.friction > 0 && rows_.center[i].w > 0;
-  manifold.twists = c.friction > 0 && manifold.twist_radius > 0 && rows_.center[rows_.count + i].w > 0;
+  manifold.twists = c.friction > 0 && manifold.twist_radius > 0 && rows_.offset[i].w > 0;
   if (manifold.slides) add_friction(i, c, shift);
   if (manifold.twists) add_row({c.a, c.b, {0, 0, 0}, c.normal, c.normal, &rows_.friction_impulse[i].z}, 0);
   problem_.manifolds.push_back(manifold);
@@ -407,7 +414,7 @@ void Island::add_normals(uint32_t i, const contact &c, const normal_rows &s, con
   const double rate = softness_of(&rows_.parameters, c).rate, closed = dot3(c.normal, moved.translation);
   for (uint32_t k = 0; k < 4; ++k) {
     if (!(s.mass[k] > 0)) continue;
-    const double separation = rows_.points[size_t{rows_.count} * k + i].w + closed +
+    const double separation = rows_.of_point(i, k, POINT_SEPARATION) + closed +
                               (dot3(s.r_cross_n_b[k], moved.rotation_b) - dot3(s.r_cross_n_a[k], moved.rotation_a));
     double bias = 0;
     if (normal_row(i, k, separation, rate, bias))
@@ -417,8 +424,8 @@ void Island::add_normals(uint32_t i, const contact &c, const normal_rows &s, con
 
 void Island::add_friction(uint32_t i, const contact &c, arm_shift shift)
 {
-  const vec3 arm_a = add(xyz(load_float4(rows_.center.data(), i)), shift.a),
-             arm_b = add(xyz(load_float4(rows_.center.data(), rows_.count + i)), shift.b);
+  const vec4 center = load_float4(rows_.center.data(), i), offset = load_float4(rows_.offset.data(), i);
+  const vec3 arm_a = add(xyz(center), shift.a), arm_b = add(xyz(center_of_b(center, offset)), shift.b);
   const tangents t = tangents_of(c.normal);
   float4 &kept = rows_.friction_impulse[i];
   add_row({c.a, c.b, t.first, cross3(arm_a, t.first), cross3(arm_b, t.first), &kept.x}, 0);
@@ -442,8 +449,7 @@ void Island::assemble()
     for (const bool second : {false, true}) {
       const uint32_t body = second ? list_[r].b : list_[r].a;
       if (!rows_.moves(body)) continue;
-      const vec3 turn = symmetric_times(load_inertia(rows_.inertia.data(), body),
-                                        second ? list_[r].r_cross_n_b : list_[r].r_cross_n_a);
+      const vec3 turn = rows_.turned_by(body, second ? list_[r].r_cross_n_b : list_[r].r_cross_n_a);
       const vec3 pushing = rows_.free_part(body, list_[r].direction);
       for (size_t s = r; s < n; ++s) {
         if (list_[s].a != body && list_[s].b != body) continue;
@@ -466,7 +472,7 @@ void Island::push(uint32_t body, const vec3 &direction, const vec3 &turn, double
   if (!rows_.moves(body)) return;
   spatial_velocity m = load_velocity(rows_.velocity.data(), body);
   m.linear = pushed(m.linear, rows_.locks(body), direction, m.inverse_mass * impulse);
-  m.angular = add_scaled(m.angular, symmetric_times(load_inertia(rows_.inertia.data(), body), turn), impulse);
+  m.angular = add_scaled(m.angular, rows_.turned_by(body, turn), impulse);
   store_velocity(rows_.velocity.data(), body, m);
 }
 

@@ -197,10 +197,14 @@ TEST_CASE("buffer place: records, planes, single numbers", "[compare]")
   const BufferLocation mass = location_in(Buffer::body_mass, scalar_of_record(3, 2, 1, 1), 100);
   CHECK(mass.item == 3);
   CHECK(mass.field == "angular_damping");
-  const BufferLocation center = location_in(Buffer::constraint_center, (100 + 17) * 4 + 3, 100);
-  CHECK(center.item == 17);
-  CHECK(center.part == 1);
-  CHECK(center.field == "mass[1]");
+  const BufferLocation rolling = location_in(Buffer::constraint_rolling, (100 + 17) * 4, 100);
+  CHECK(rolling.item == 17);
+  CHECK(rolling.part == 1);
+  CHECK(rolling.field == "x_or_rolling[1]");
+  const BufferLocation points = location_in(Buffer::constraint_points, 100 * 9 + 17, 100);
+  CHECK(points.item == 17);
+  CHECK(points.part == 9);
+  CHECK(points.field == "mass[1]");
   const BufferLocation pair = location_in(Buffer::pair_a, 42, 100);
   CHECK(pair.item == 42);
   CHECK(pair.field == "body");
