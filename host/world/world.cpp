@@ -294,6 +294,7 @@ std::vector<KernelTime> World::take_kernel_times() { return implementation_->bac
 double World::build_milliseconds() const { return implementation_->backends.build_milliseconds(); }
 uint64_t World::launches() const { return implementation_->backends.launches(); }
 uint64_t World::bytes_moved() const { return implementation_->memory.moves().bytes; }
+uint64_t World::device_reads() const { return implementation_->memory.moves().reads; }
 uint32_t World::resident_groups() const { return implementation_->backends.resident_groups(); }
 
 void World::prepare_kernels()

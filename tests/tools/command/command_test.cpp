@@ -213,8 +213,10 @@ TEST_CASE("command: run writes what its contract says", "[command]")
                    "body_hash",
                    "launches",
                    "bytes_moved",
+                   "device_reads",
                    "placement"});
   CHECK(run["bytes_moved"] == 0);
+  CHECK(run["device_reads"] == 0);
   CHECK(run["placement"]["why"] == "as asked");
   check_keys(run["step_ms"], {"median", "min", "max"});
   CHECK(run["scene"] == tiny);
