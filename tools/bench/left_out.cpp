@@ -25,14 +25,6 @@ constexpr Features chosen_features = FEATURE_AXES | FEATURE_EXPANSION | FEATURE_
                                      FEATURE_SUBSTEP_WARM_START | FEATURE_WORLDS | FEATURE_PGS | FEATURE_NNCG |
                                      FEATURE_XPBD | FEATURE_AVBD;
 
-/* The feature, and those without whose buffers its kernels could not run. */
-Features with_needs(Features feature)
-{
-  constexpr Features of_convex = FEATURE_HULL | FEATURE_ROUND | FEATURE_TREES | FEATURE_CONTINUOUS |
-                                 FEATURE_CONVEX_CONVEX | FEATURE_CONVEX_HALF_SPACE;
-  return (feature & of_convex) != 0 ? feature | FEATURE_CONVEX : feature;
-}
-
 struct TimedWorld {
   std::unique_ptr<World> world;
   std::vector<double> launches, milliseconds;
