@@ -28,7 +28,16 @@ set(all_features ${pair_rows} ${other_rows})
 list(TRANSFORM all_features REPLACE "^[A-Z_]+\\(([A-Z_]+),.*" "\\1")
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${lists_of_features})
 
-# The features that a list of names and groups stands for.
+# features_for_NAME: those without which the kernels of NAME cannot run.
+file(STRINGS ${PROJECT_SOURCE_DIR}/shared/features.def needs REGEX "^FEATURE_NEEDS\\(")
+foreach(row IN LISTS needs)
+  string(REGEX REPLACE "^FEATURE_NEEDS\\(([A-Z_]+), ([A-Z_]+)\\)" "\\1;\\2" row "${row}")
+  list(GET row 0 name)
+  list(GET row 1 other)
+  list(APPEND features_for_${name} ${other})
+endforeach()
+
+# The features that a list of names and groups stands for, with those that they need.
 function(expand_features asked result)
   set(features)
   foreach(name IN LISTS asked)
@@ -43,13 +52,8 @@ function(expand_features asked result)
       message(FATAL_ERROR " TANDEM_FEATURES: '${name}' is no feature. Features: ${names}. Groups: ${groups}.")
     endif()
   endforeach()
-  foreach(name IN LISTS features) # whose kernels read what CONVEX brings
-    if(name MATCHES "^(HULL|ROUND|TREES|CONTINUOUS|CONVEX_CONVEX|CONVEX_HALF_SPACE)$")
-      list(APPEND features CONVEX)
-    endif()
-    if(name STREQUAL "LOCKS") # a locked body has no scalar for its inverse inertia
-      list(APPEND features GYROSCOPIC)
-    endif()
+  foreach(name IN LISTS features)
+    list(APPEND features ${features_for_${name}})
   endforeach()
   set(${result} ${features} PARENT_SCOPE)
 endfunction()

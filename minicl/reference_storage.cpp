@@ -109,6 +109,11 @@ public:
     std::copy_n(static_cast<const double *>(handle) + first, count, to);
   }
 
+  void read_real_planes(void *handle, size_t plane_reals, double *to, size_t count, size_t planes) override
+  {
+    for (size_t plane = 0; plane < planes; ++plane) read_reals(handle, plane * plane_reals, to + plane * count, count);
+  }
+
   bool keeps_doubles() const override { return true; }
   void write_reals(void *handle, size_t first, const double *from, size_t count) override
   {

@@ -9,7 +9,7 @@
 #include "shared/body_codes.h"
 
 /* The number of colours of the constraint graph. Contacts past the last colour become overflow constraints
- * (solve/mass_split.h). Two words hold a bit for each colour and one for the overflow constraints. */
+ * (solve/mass_split.h). Two words hold a bit for each colour. */
 #define COLOR_LIMIT 63u
 #define COLOR_OVERFLOW COLOR_LIMIT /* sort key of a constraint without a colour of its own */
 #define COLOR_NONE 254u            /* a touching pair without a colour yet */

@@ -11,6 +11,8 @@
 
 #include <tandem/settings.h>
 
+#include "host/scene/hull_buffers.h"
+
 namespace tandem {
 
 /* Checks for a table that each row is at the index of its choice. */
@@ -52,6 +54,6 @@ struct SupportRow {
 
 /* The method code of the kernels of convex shapes: CONVEX_ in the low byte, SUPPORT_ in the next. */
 TANDEM_API uint32_t narrowphase_method(const Settings &settings);
-uint32_t cube_map_cells(const Settings &settings); /* support_cells; 0 if no cube map is used */
+HullMaps hull_maps(const Settings &settings);
 
 } // namespace tandem

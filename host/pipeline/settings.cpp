@@ -163,10 +163,10 @@ uint32_t narrowphase_method(const Settings &settings)
          row_in(Setting<Support>::rows(), settings.support).code << 8;
 }
 
-uint32_t cube_map_cells(const Settings &settings)
+HullMaps hull_maps(const Settings &settings)
 {
-  const bool uses_none = settings.support == Support::brute_force && settings.narrowphase != Narrowphase::cube_map;
-  return uses_none ? 0 : settings.support_cells;
+  return {settings.support == Support::brute_force ? 0 : settings.support_cells,
+          settings.narrowphase == Narrowphase::cube_map ? settings.support_cells : 0};
 }
 
 void validate(const Settings &settings)

@@ -66,7 +66,6 @@ private:
     run_extensions(StepPoint::contacts);
     color_contacts();
     set_up_contacts();
-    if (plan().colors > COLOR_LIMIT) run_range(Kernel::mark_overflow, COLOR_START + COLOR_OVERFLOW, COUNT_CONSTRAINTS);
     if (has(FEATURE_ROLLING)) run(Kernel::prepare_rolling);
   }
 

@@ -2,6 +2,7 @@
 #include "host/runtime/memory.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cstring>
 #include <new>
@@ -17,6 +18,13 @@ namespace tandem {
 Memory::Memory() : entries_(all_buffers())
 {
   for (size_t i = 0; i < entries_.size(); ++i) entries_[i].element = row_of(buffer_at(i)).element;
+}
+
+/* Each memory counts in a range of its own. */
+uint64_t Memory::first_version()
+{
+  static std::atomic<uint64_t> memories = 0;
+  return ++memories << 40;
 }
 
 Memory::~Memory()
@@ -39,6 +47,7 @@ void Memory::resize(Buffer buffer, size_t bytes)
   if (bytes == entry.bytes) return;
   release(entry);
   entry.bytes = bytes;
+  note_write(entry);
 }
 
 void Memory::assign(Buffer buffer, const void *from, size_t bytes)
@@ -52,6 +61,7 @@ void Memory::assign(Buffer buffer, const void *from, size_t bytes)
   }
   release(entry);
   entry = std::move(other);
+  note_write(entry);
   uploaded_bytes_ += bytes;
 }
 
@@ -137,6 +147,7 @@ void Memory::move_to_host(Entry &entry, void *host, const UsedPart &part)
   if (source == entry.copies.end()) return;
   for (Copy &copy : entry.copies)
     if (copy.storage != source->storage && copy.storage->shares_host_memory()) copy.storage->wait();
+  note_read(*source->storage);
   if (source->storage->shares_host_memory()) return source->storage->read(source->handle, 0, host, entry.bytes);
   source->storage->wait();
   const auto start = std::chrono::steady_clock::now();
@@ -196,6 +207,7 @@ void *Memory::acquire(Buffer buffer, Storage &storage, Access access, UsedParts 
 {
   Entry &entry = entries_[index_of(buffer)];
   const bool forgotten = std::exchange(entry.forgotten, entry.forgotten && access == Access::in);
+  if (access != Access::in) note_write(entry);
   if (void *const handle = valid_alone(entry, storage, access)) return handle; /* nearly always */
   if (forgotten) copy_in(entry, storage).valid = true;
   make_valid(buffer, storage, used);
@@ -225,6 +237,7 @@ void Memory::upload(Buffer buffer, const void *from, size_t bytes, size_t offset
   uploaded_bytes_ += bytes;
   Entry &entry = entries_[index_of(buffer)];
   entry.forgotten = false;
+  note_write(entry);
   Copy *device = valid_on_device(entry);
   if (!device) {
     char *host = static_cast<char *>(acquire(buffer, host_storage(), Access::inout));
@@ -287,6 +300,7 @@ void Memory::fit(Buffer buffer, size_t bytes)
   }
   release(entry);
   entry = std::move(fitted);
+  note_write(entry);
 }
 
 /* Reads directly from a device if the host's copy is stale, so that reading a count transfers only the count. */
@@ -298,7 +312,10 @@ void Memory::download(Buffer buffer, void *to, size_t bytes, size_t offset)
   for (Copy &copy : entry.copies)
     if (copy.valid && copy.storage == &host_storage())
       return copy_in_parts(static_cast<const char *>(copy.handle) + offset, to, bytes);
-    else if (copy.valid) return copy.storage->read(copy.handle, offset, to, bytes);
+    else if (copy.valid) {
+      note_read(*copy.storage);
+      return copy.storage->read(copy.handle, offset, to, bytes);
+    }
 }
 
 void Memory::make_room(Buffer buffer, Storage &storage, KeptBytes &kept)
@@ -334,6 +351,7 @@ void Memory::put_back(Buffer buffer, const KeptBytes &kept)
   Copy &target = copy_in(entry, *kept.storage_);
   wait_for_readers(entry, *kept.storage_);
   entry.forgotten = false;
+  note_write(entry);
   copy_within(*kept.storage_, kept.handle_, target.handle, kept.bytes_);
   for (Copy &copy : entry.copies) copy.valid = &copy == &target;
 }
@@ -359,7 +377,16 @@ void Memory::read_reals(Buffer buffer, double *to, size_t count, size_t first)
 {
   if (count == 0) return;
   Copy &copy = most_precise(entries_[index_of(buffer)]);
+  note_read(*copy.storage);
   copy.storage->read_reals(copy.handle, first, to, count);
+}
+
+void Memory::read_real_planes(Buffer buffer, double *to, size_t count, size_t planes, size_t plane_reals)
+{
+  if (count == 0 || planes == 0) return;
+  Copy &copy = most_precise(entries_[index_of(buffer)]);
+  note_read(*copy.storage);
+  copy.storage->read_real_planes(copy.handle, plane_reals, to, count, planes);
 }
 
 void Memory::write_reals(Buffer buffer, const double *from, size_t count, size_t first)
@@ -374,6 +401,7 @@ void Memory::write_reals(Buffer buffer, const double *from, size_t count, size_t
     return upload(buffer, rounded_.data(), count * sizeof(float), first * sizeof(float));
   }
   entry.forgotten = false;
+  note_write(entry);
   wide.storage->write_reals(wide.handle, first, from, count);
   for (Copy &other : entry.copies) other.valid = &other == &wide;
 }

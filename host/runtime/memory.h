@@ -64,6 +64,7 @@ public:
 struct Moves {
   uint64_t bytes = 0, buffers = 0;
   double milliseconds = 0; /* with what wrote them finished, so that none of its time is among it */
+  uint64_t reads = 0; /* by the host from a storage that is not its own, of whole buffers or parts: each one waits */
 };
 
 /* Every storage given to acquire must outlive the memory. */
@@ -108,6 +109,9 @@ public:
   /* Nothing reads what the buffer holds until it is written again, so that it need not move. */
   void forget_contents(Buffer buffer) { entries_[index_of(buffer)].forgotten = true; }
   const Moves &moves() const { return moves_; }
+  /* Another number after each call that may have written the buffer, and never that of another buffer of any memory. So
+   * the host need not read again what it has read. */
+  uint64_t version(Buffer buffer) const { return entries_[index_of(buffer)].version; }
   UsedPart whole(Buffer buffer) const { return {bytes(buffer), 1}; }
 
   /* Writes in place where the buffer is valid, so that a few bytes do not move all of it. */
@@ -129,6 +133,8 @@ public:
   /* Scalars of a buffer of float4s or reals, in double if a backend has left them in double. */
   std::vector<double> read_reals(Buffer buffer, size_t count, size_t first = 0);
   void read_reals(Buffer buffer, double *to, size_t count, size_t first = 0);
+  /* The first reals of each plane, of plane_reals reals each, one behind the other. */
+  void read_real_planes(Buffer buffer, double *to, size_t count, size_t planes, size_t plane_reals);
   /* Writes doubles if the buffer is now in double; otherwise they are rounded to floats. */
   void write_reals(Buffer buffer, const double *from, size_t count, size_t first = 0);
 
@@ -143,10 +149,14 @@ private:
     size_t bytes = 0;
     std::vector<Copy> copies;
     bool forgotten = false; /* nothing reads the contents before they are written */
+    uint64_t version = 0;
   };
   Copy &copy_in(Entry &entry, Storage &storage);
   void *allocate(const Entry &entry, size_t bytes, Storage &storage, void *host_memory);
   Copy &most_precise(Entry &entry);
+  static uint64_t first_version();
+  void note_write(Entry &entry) { entry.version = ++last_version_; }
+  void note_read(const Storage &storage) { moves_.reads += &storage != &host_storage(); }
   static Copy *valid_on_device(Entry &entry);
   static void *valid_alone(const Entry &entry, const Storage &storage, Access access);
   void make_valid(Buffer buffer, Storage &target, UsedParts *used);
@@ -158,6 +168,7 @@ private:
   std::vector<Entry> entries_; /* one for each buffer that existed when the memory was made */
   std::vector<float> rounded_; /* by write_reals; kept, so that kernels of the host write without allocating */
   uint64_t uploaded_bytes_ = 0;
+  uint64_t last_version_ = first_version();
   Moves moves_;
 };
 

@@ -1,6 +1,7 @@
 /* parts.cpp - see parts.h. */
 #include "host/runtime/parts.h"
 
+#include <algorithm>
 #include <exception>
 #include <mutex>
 
@@ -37,6 +38,11 @@ private:
 };
 
 } // namespace
+
+size_t parts_at_once()
+{
+  return std::min(minicl::settle_threads(), static_cast<size_t>(tbb::this_task_arena::max_concurrency()));
+}
 
 /* The caller may be a task of TBB's itself. If its group is cancelled, the parts run all the same, and while the caller
  * waits for them, it takes no other task, which may want a lock that the caller holds. */

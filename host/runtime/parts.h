@@ -8,5 +8,7 @@ namespace tandem {
 
 /* A RunParts. Results must not depend on the order of the parts. */
 void run_parts(size_t parts, PartFunction run);
+/* The most parts that run at the same time. */
+size_t parts_at_once();
 
 } // namespace tandem

@@ -39,11 +39,12 @@ struct Tables {
   std::vector<uint32_t> headers, face_starts, corners, edges, links;
   std::vector<float4> vertices, planes, chunks;
 
-  void add(const ConvexHull &hull, uint32_t map_side)
+  void add(const ConvexHull &hull, const HullMaps &maps)
   {
     const auto size = [](const auto &list) { return static_cast<uint32_t>(list.size()); };
-    for (uint32_t word : {size(vertices), size(hull.vertices), size(planes), size(hull.faces), size(edges) / 4,
-                          size(hull.edges), size(corners), corners_of(hull), size(chunks), size(links), map_side})
+    for (uint32_t word :
+         {size(vertices), size(hull.vertices), size(planes), size(hull.faces), size(edges) / 4, size(hull.edges),
+          size(corners), corners_of(hull), size(chunks), size(links), maps.vertices, maps.faces})
       headers.push_back(word);
     for (const Vec3 &v : hull.vertices) vertices.push_back({v[0], v[1], v[2], 0});
     for (const HullPlane &p : hull.planes)
@@ -58,16 +59,17 @@ struct Tables {
     append_chunks(chunks, std::span(planes).last(hull.faces.size()), 4);
     chunks.push_back(middle_of(std::span(vertices).last(hull.vertices.size())));
     append_links(links, size(hull.vertices), hull.faces, std::span(edges).last(4 * hull.edges.size()));
-    append_cube_maps(links, std::span(vertices).last(hull.vertices.size()), std::span(planes).last(hull.faces.size()),
-                     chunks.back(), map_side);
+    append_vertex_map(links, std::span(vertices).last(hull.vertices.size()), maps.vertices);
+    append_face_map(links, std::span(planes).last(hull.faces.size()), chunks.back(), maps.faces);
   }
 };
 
 } // namespace
 
-HullSizes hull_sizes(const Scene &scene, uint32_t map_side)
+HullSizes hull_sizes(const Scene &scene, const HullMaps &maps)
 {
   HullSizes sizes;
+  const uint64_t cells = 6 * (uint64_t{maps.vertices} * maps.vertices + uint64_t{maps.faces} * maps.faces);
   for (const ConvexHull *hull : distinct_hulls(scene)) {
     ++sizes.hulls;
     sizes.vertices += hull->vertices.size();
@@ -75,7 +77,7 @@ HullSizes hull_sizes(const Scene &scene, uint32_t map_side)
     sizes.edges += hull->edges.size();
     sizes.corners += corners_of(*hull);
     sizes.chunk_float4s += chunk_float4s(hull->vertices.size(), 3) + chunk_float4s(hull->faces.size(), 4) + 1;
-    sizes.links += hull->vertices.size() + 1 + 2 * uint64_t{corners_of(*hull)} + 12 * uint64_t{map_side} * map_side;
+    sizes.links += hull->vertices.size() + 1 + 2 * uint64_t{corners_of(*hull)} + cells;
   }
   return sizes;
 }
@@ -87,10 +89,10 @@ HullNumbers hull_numbers(const Scene &scene)
   return numbers;
 }
 
-void stage_hulls(StagedUploads &uploads, const Scene &scene, uint32_t map_side)
+void stage_hulls(StagedUploads &uploads, const Scene &scene, const HullMaps &maps)
 {
   Tables tables;
-  for (const ConvexHull *hull : distinct_hulls(scene)) tables.add(*hull, map_side);
+  for (const ConvexHull *hull : distinct_hulls(scene)) tables.add(*hull, maps);
   tables.face_starts.push_back(static_cast<uint32_t>(tables.corners.size()));
   uploads.add(Buffer::hull_header, std::move(tables.headers));
   uploads.add(Buffer::hull_vertex, std::move(tables.vertices));

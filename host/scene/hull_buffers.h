@@ -14,13 +14,17 @@ namespace tandem {
 struct HullSizes {
   uint64_t hulls = 0, vertices = 0, faces = 0, corners = 0, edges = 0, chunk_float4s = 0, links = 0;
 };
-/* map_side: cells along a side of the cube maps of hull_support.h and cube_field.h; 0 if none are made. */
-HullSizes hull_sizes(const Scene &scene, uint32_t map_side);
+/* Cells along a side of the cube maps of each hull: of its farthest vertices (shared/narrowphase/hull_support.h), and
+ * of its faces (cube_field.h there). 0: there is no such map, because nothing reads it. */
+struct HullMaps {
+  uint32_t vertices = 0, faces = 0;
+};
+HullSizes hull_sizes(const Scene &scene, const HullMaps &maps);
 
 /* The index of each hull in the tables, including the hulls of children. */
 using HullNumbers = std::map<const ConvexHull *, uint32_t>;
 HullNumbers hull_numbers(const Scene &scene);
 
-void stage_hulls(StagedUploads &uploads, const Scene &scene, uint32_t map_side);
+void stage_hulls(StagedUploads &uploads, const Scene &scene, const HullMaps &maps);
 
 } // namespace tandem

@@ -81,16 +81,24 @@ template <class Look> void append_cube(std::vector<uint32_t> &links, uint32_t si
       }
 }
 
-/* Appends two maps: the vertex farthest in a direction, and the face that a ray from the middle in that direction
- * hits. */
-template <class Row>
-void append_cube_maps(std::vector<uint32_t> &links, std::span<Row> vertices, std::span<Row> planes,
-                      const std::type_identity_t<Row> &middle, uint32_t side)
+inline double along(const auto &row, const std::array<double, 3> &d)
 {
-  const auto along = [](const Row &r, const std::array<double, 3> &d) { return r.x * d[0] + r.y * d[1] + r.z * d[2]; };
+  return row.x * d[0] + row.y * d[1] + row.z * d[2];
+}
+
+/* Appends the map of the vertex farthest in a direction. */
+template <class Row> void append_vertex_map(std::vector<uint32_t> &links, std::span<Row> vertices, uint32_t side)
+{
   append_cube(links, side, [&](const std::array<double, 3> &d) {
     return highest_of(vertices, [&](const Row &vertex) { return along(vertex, d); });
   });
+}
+
+/* Appends the map of the face that a ray from the middle in a direction hits. */
+template <class Row>
+void append_face_map(std::vector<uint32_t> &links, std::span<Row> planes, const std::type_identity_t<Row> &middle,
+                     uint32_t side)
+{
   append_cube(links, side, [&](const std::array<double, 3> &d) {
     return highest_of(planes, [&](const Row &plane) {
       return along(plane, d) / (plane.w - along(plane, {middle.x, middle.y, middle.z}));

@@ -377,7 +377,7 @@ void World::Implementation::plan_layout(const Arrival &arrival, std::vector<uint
   scene_features = needed;
   special.features = features_run();
   special.order = std::move(order);
-  hulls = hull_sizes(scene, cube_map_cells(settings));
+  hulls = hull_sizes(scene, hull_maps(settings));
   trees = tree_tables(scene);
   if (bodies() > plan.bodies) plan.bodies = std::max({bodies(), 2 * plan.bodies, least_room});
   plan.features = special.features;

@@ -48,7 +48,7 @@ World::Implementation::Implementation(Beginning beginning, const Placement &plac
     : scene(std::move(beginning.scene)), settings(std::move(beginning.settings)),
       settings_in_use(with_substeps(settings, first_choice(settings))),
       chooses(settings.broadphase == Broadphase::automatic), special(std::move(beginning.special)),
-      hulls(hull_sizes(scene, cube_map_cells(settings))), trees(tree_tables(scene)), forced_features(beginning.forced),
+      hulls(hull_sizes(scene, hull_maps(settings))), trees(tree_tables(scene)), forced_features(beginning.forced),
       scene_features(special.features),
       automatic(placement.automatic ? std::make_unique<AutomaticPlacement>(placement) : nullptr),
       backends(shared ? PlacedBackends(*shared, features_run())
@@ -240,7 +240,7 @@ Parameters World::Implementation::parameters_now() const
 void World::Implementation::stage_tables(StagedUploads &uploads)
 {
   stage_shapes(uploads, scene, special.order, plan.bodies, slots.status());
-  stage_hulls(uploads, scene, cube_map_cells(settings));
+  stage_hulls(uploads, scene, hull_maps(settings));
   stage_trees(uploads, scene, trees, special.order, plan.bodies, slots.status());
   trees = {trees.sizes, {}, {}, {}, {}, {}, {}, {}, {}}; /* the buffers hold the rest */
   stage_materials(uploads, scene);

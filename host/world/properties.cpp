@@ -13,6 +13,7 @@
 #include <tandem/error.h>
 
 #include "host/pipeline/broadphases/broadphase.h"
+#include "host/scene/built.h"
 #include "host/world/implementation.h"
 #include "host/world/placed_bodies.h"
 #include "shared/commands/command_codes.h"
@@ -120,7 +121,8 @@ void World::Implementation::set_properties(std::span<const BodyId> ids, std::spa
   for (const BodyId &id : ids) given.push_back(slots.slot_of("set_properties", id));
   const ChangedBodies changed = changed_by(scene, settings, given, properties);
   if (ids.empty()) return;
-  settle(); /* what was called before comes before */
+  refuse_unbuilt(changed.slots, changed.bodies); /* before anything wakes */
+  settle();                                      /* what was called before comes before */
   wake_bodies(changed.slots, true);
   buffers.make_ready(sizes());
   commands.prepare(changed.slots.size());
@@ -140,6 +142,15 @@ void World::Implementation::set_properties(std::span<const BodyId> ids, std::spa
   for (const uint32_t slot : changed.slots)
     if (slots.status()[slot] != BodyStatus::quarantined)
       commands.add(slot, COMMAND_SET_MASS, mass_command_of(scene.bodies[slot]));
+}
+
+/* Throws InputError if the world with these bodies needs what the library is built without. */
+void World::Implementation::refuse_unbuilt(std::span<const uint32_t> changed, std::span<const Body> changed_bodies)
+{
+  const auto is_known = [&](const Body &body) { return known_kinds.contains(kind_of(scene, body)); };
+  if (std::all_of(changed_bodies.begin(), changed_bodies.end(), is_known)) return;
+  const PlacedBodies tried(scene, changed, changed_bodies);
+  check_built(features_of(scene, settings), scene, settings, scene.name);
 }
 
 /* Contacts of a body that cannot be pushed may share a colour, which they must not keep when it can be. */

@@ -1,5 +1,5 @@
 /* world.cpp - the functions of <tandem/world.h>, which call host/world/implementation.h and turn a lack of memory into
- * OutOfMemory. */
+ * OutOfMemory. Those about bodies are in world_bodies.cpp, and queries in world_queries.cpp. */
 #include <new>
 
 #include <fmt/format.h>
@@ -9,7 +9,7 @@
 #include "host/base/hash.h"
 #include "host/base/out_of_memory.h"
 #include "host/runtime/interface/floating_point.h"
-#include "host/world/closest_points.h"
+#include "host/world/answers.h"
 #include "host/world/contact_events.h"
 #include "host/world/implementation.h"
 
@@ -55,39 +55,6 @@ World::World(std::span<const std::byte> snapshot, const Placement &placement, st
 }
 
 World::World(std::unique_ptr<Implementation> implementation) : implementation_(std::move(implementation)) {}
-
-namespace {
-
-/* Runs a query of a world; if memory runs out, the message says what was requested and for how many bodies. */
-template <class Work> auto answer(const char *what, size_t bodies, Work work)
-{
-  return naming_what_failed(
-      [&] {
-        return fmt::format("out of memory: {} of a world of {} bodies: its lists need more than there is", what,
-                           bodies);
-      },
-      work);
-}
-
-/* The same for what only reads. Reads change what the host knows (they move buffers, and apply calls that wait), so one
- * waits for the other. */
-template <class Implementation, class Work> auto answer_in_turn(Implementation &world, const char *what, Work work)
-{
-  const std::lock_guard guard(world.reading);
-  return answer(what, world.slots.existing(), work);
-}
-
-} // namespace
-
-namespace {
-
-/* Writes a call that has succeeded, if a recording is made. */
-template <class... T> void note(const std::unique_ptr<CallLog> &log, RecordedCall call, const T &...fields)
-{
-  if (log) log->put(call, fields...);
-}
-
-} // namespace
 
 World::~World() = default;
 
@@ -184,187 +151,6 @@ void World::go_back(uint32_t states)
   note(implementation_->log, RecordedCall::go_back, states);
 }
 
-std::vector<BodyState> World::bodies()
-{
-  return answer_in_turn(*implementation_, "the bodies", [&] {
-    implementation_->settle();
-    return download_bodies(implementation_->memory, implementation_->special.order);
-  });
-}
-
-std::vector<PreciseBodyState> World::precise_bodies()
-{
-  return answer_in_turn(*implementation_, "the bodies", [&] {
-    implementation_->settle();
-    return download_precise_bodies(implementation_->memory, implementation_->special.order);
-  });
-}
-
-void World::set_body(uint32_t body, const BodyState &state)
-{
-  if (!implementation_->slots.exists(body))
-    throw InputError(
-        fmt::format("set_body: body {} does not exist; the scene has {}", body, implementation_->slots.existing()));
-  if (!is_finite(state)) throw InputError(fmt::format("set_body: body {} would not be finite", body));
-  set_body_unchecked(body, state);
-}
-
-void World::set_body_unchecked(uint32_t body, const BodyState &state)
-{
-  const minicl::ExactFloatingPoint environment;
-  ++implementation_->state;
-  answer("a body", implementation_->slots.existing(), [&] {
-    implementation_->settle(); /* what was called before comes before */
-    implementation_->wake_bodies(std::span(&body, 1), true);
-    implementation_->note_motion(body, {state.linear_velocity, state.angular_velocity});
-    upload_body(implementation_->memory, implementation_->index_of_body.at(body), state);
-  });
-  note(implementation_->log, RecordedCall::set_body, body, state);
-}
-
-BodyId World::id_of(uint32_t body) const
-{
-  if (!implementation_->slots.exists(body))
-    throw InputError(
-        fmt::format("id_of: body {} does not exist; the world has {}", body, implementation_->slots.existing()));
-  return implementation_->slots.id_of(body);
-}
-
-bool World::exists(const BodyId &id) const
-{
-  return implementation_->slots.exists(id.index) && implementation_->slots.id_of(id.index) == id;
-}
-
-std::vector<BodyId> World::body_ids() const
-{
-  const BodySlots &slots = implementation_->slots;
-  std::vector<BodyId> ids;
-  ids.reserve(slots.existing());
-  for (uint32_t slot = 0; slot < slots.count(); ++slot)
-    if (slots.exists(slot)) ids.push_back(slots.id_of(slot));
-  return ids;
-}
-
-uint32_t World::body_count() const { return implementation_->slots.existing(); }
-
-std::vector<BodyId> World::create_bodies(std::span<const Body> bodies)
-{
-  return answer("new bodies", implementation_->slots.existing(), [&] {
-    const std::vector<Body> given(bodies.begin(), bodies.end()); /* they may be those of scene(), which move */
-    std::vector<BodyId> ids = implementation_->create(given);
-    note(implementation_->log, RecordedCall::create_bodies, std::span<const Body>(given), ids);
-    return ids;
-  });
-}
-
-void World::destroy_bodies(std::span<const BodyId> ids)
-{
-  answer("the destruction of bodies", implementation_->slots.existing(), [&] { implementation_->destroy(ids); });
-  note(implementation_->log, RecordedCall::destroy_bodies, ids);
-}
-
-uint32_t World::add_shape(const Shape &shape)
-{
-  const uint32_t index =
-      answer("a shape", implementation_->slots.existing(), [&] { return implementation_->add_shape(shape); });
-  note(implementation_->log, RecordedCall::add_shape, scene().shapes[index], index); /* `shape` may have moved */
-  return index;
-}
-
-uint32_t World::add_material(const Material &material)
-{
-  const uint32_t index =
-      answer("a material", implementation_->slots.existing(), [&] { return implementation_->add_material(material); });
-  note(implementation_->log, RecordedCall::add_material, scene().materials[index], index);
-  return index;
-}
-
-void World::set_properties(std::span<const BodyId> ids, std::span<const BodyProperties> properties)
-{
-  const minicl::ExactFloatingPoint environment;
-  answer("properties of bodies", implementation_->slots.existing(),
-         [&] { implementation_->set_properties(ids, properties); });
-  note(implementation_->log, RecordedCall::set_properties, ids, properties);
-}
-
-Body World::body_description(const BodyId &id) const
-{
-  return implementation_->scene.bodies[implementation_->slots.slot_of("body_description", id)];
-}
-
-std::vector<ShapeId> World::add_shapes(std::span<const BodyId> ids, std::span<const Child> shapes)
-{
-  const minicl::ExactFloatingPoint environment;
-  return answer("shapes of bodies", implementation_->slots.existing(), [&] {
-    const std::vector<Child> given(shapes.begin(), shapes.end()); /* they may be those of a compound that goes */
-    std::vector<ShapeId> added = implementation_->add_shapes(ids, given);
-    note(implementation_->log, RecordedCall::add_shapes, ids, std::span<const Child>(given), added);
-    return added;
-  });
-}
-
-void World::remove_shapes(std::span<const ShapeId> ids)
-{
-  const minicl::ExactFloatingPoint environment;
-  answer("shapes of bodies", implementation_->slots.existing(), [&] { implementation_->remove_shapes(ids); });
-  note(implementation_->log, RecordedCall::remove_shapes, ids);
-}
-
-std::vector<ShapeId> World::shapes_of(const BodyId &id)
-{
-  return answer_in_turn(*implementation_, "shapes of bodies", [&] {
-    std::vector<ShapeId> shapes = implementation_->shapes_of(id);
-    note(implementation_->log, RecordedCall::shapes_of, id); /* it makes handles */
-    return shapes;
-  });
-}
-
-BodyId World::body_of(const ShapeId &id) const
-{
-  const std::lock_guard guard(implementation_->reading);
-  return implementation_->shapes.place_of("body_of", id).body;
-}
-
-std::vector<BodyState> World::read_bodies(std::span<const BodyId> ids)
-{
-  return answer_in_turn(*implementation_, "the bodies", [&] { return implementation_->read(ids); });
-}
-
-void World::set_states(std::span<const BodyId> ids, std::span<const BodyState> states)
-{
-  const minicl::ExactFloatingPoint environment;
-  answer("calls to bodies", implementation_->slots.existing(), [&] { implementation_->set_states(ids, states); });
-  note(implementation_->log, RecordedCall::set_states, ids, states);
-}
-
-void World::set_velocities(std::span<const BodyId> ids, std::span<const Velocity> velocities)
-{
-  answer("calls to bodies", implementation_->slots.existing(),
-         [&] { implementation_->set_velocities(ids, velocities); });
-  note(implementation_->log, RecordedCall::set_velocities, ids, velocities);
-}
-
-void World::move_to(std::span<const BodyId> ids, std::span<const Pose> poses)
-{
-  const minicl::ExactFloatingPoint environment;
-  answer("calls to bodies", implementation_->slots.existing(), [&] { implementation_->move_to(ids, poses); });
-  note(implementation_->log, RecordedCall::move_to, ids, poses);
-}
-
-void World::add_impulses(std::span<const BodyId> ids, std::span<const Impulse> impulses)
-{
-  const minicl::ExactFloatingPoint environment;
-  answer("calls to bodies", implementation_->slots.existing(), [&] { implementation_->add_impulses(ids, impulses); });
-  note(implementation_->log, RecordedCall::add_impulses, ids, impulses);
-}
-
-void World::add_forces(std::span<const BodyId> ids, std::span<const Force> forces)
-{
-  const minicl::ExactFloatingPoint environment;
-  answer("calls to bodies", implementation_->slots.existing(), [&] { implementation_->add_forces(ids, forces); });
-  note(implementation_->log, RecordedCall::add_forces, ids, forces);
-}
-
 void World::run(Kernel kernel, std::span<const uint32_t> values, std::span<const Buffer> slots)
 {
   const minicl::ExactFloatingPoint environment;
@@ -459,91 +245,6 @@ std::vector<PairEvent> World::pair_events()
                         [&] { return download_pair_events(implementation_->memory, implementation_->events_order()); });
 }
 
-std::vector<RayHit> World::cast_rays(std::span<const Ray> rays)
-{
-  check_rays(rays);
-  const minicl::ExactFloatingPoint environment;
-  return answer_in_turn(*implementation_, "queries",
-                        [&] { return tandem::cast_rays(implementation_->query_target(), rays); });
-}
-
-std::vector<bool> World::cast_rays_any(std::span<const Ray> rays)
-{
-  check_rays(rays);
-  const minicl::ExactFloatingPoint environment;
-  return answer_in_turn(*implementation_, "queries",
-                        [&] { return tandem::cast_rays_any(implementation_->query_target(), rays); });
-}
-
-std::vector<std::vector<RayHit>> World::cast_rays_all(std::span<const Ray> rays)
-{
-  check_rays(rays);
-  const minicl::ExactFloatingPoint environment;
-  return answer_in_turn(*implementation_, "queries",
-                        [&] { return tandem::cast_rays_all(implementation_->query_target(), rays); });
-}
-
-std::vector<std::vector<BoxHit>> World::cast_boxes(std::span<const QueryBox> boxes)
-{
-  check_boxes(boxes);
-  const minicl::ExactFloatingPoint environment;
-  return answer_in_turn(*implementation_, "queries",
-                        [&] { return tandem::cast_boxes(implementation_->query_target(), boxes); });
-}
-
-std::vector<ShapeCastHit> World::cast_shapes(const Shape &shape, std::span<const Pose> poses,
-                                             std::span<const Vec3> displacements, const QueryFilter &filter)
-{
-  check_shape_casts(shape, poses, displacements);
-  const minicl::ExactFloatingPoint environment;
-  return answer_in_turn(*implementation_, "queries", [&] {
-    return tandem::cast_shapes(implementation_->query_target(), shape, poses, displacements, filter);
-  });
-}
-
-std::vector<std::vector<uint32_t>> World::overlap_shapes(const Shape &shape, std::span<const Pose> poses,
-                                                         const QueryFilter &filter)
-{
-  check_overlaps(shape, poses);
-  const minicl::ExactFloatingPoint environment;
-  return answer_in_turn(*implementation_, "queries",
-                        [&] { return tandem::overlap_shapes(implementation_->query_target(), shape, poses, filter); });
-}
-
-std::vector<ClosestPoints> World::closest_points(std::span<const std::pair<BodyId, BodyId>> pairs)
-{
-  const minicl::ExactFloatingPoint environment;
-  return answer_in_turn(*implementation_, "closest points", [&] {
-    check_closest_points(implementation_->scene, implementation_->slots, pairs);
-    implementation_->settle();
-    return tandem::closest_points(implementation_->memory, implementation_->launcher, pairs,
-                                  implementation_->index_of_body);
-  });
-}
-
-void World::cast_rays_on_device(std::span<const Ray> rays)
-{
-  check_rays(rays);
-  const minicl::ExactFloatingPoint environment;
-  answer_in_turn(*implementation_, "queries", [&] {
-    tandem::cast_rays_on_device(implementation_->target_for_kernels(), rays);
-    implementation_->plan.hits = static_cast<uint32_t>(rays.size());
-    note(implementation_->log, RecordedCall::cast_rays_on_device, rays);
-  });
-}
-
-void World::cast_shapes_on_device(const Shape &shape, std::span<const Pose> poses, std::span<const Vec3> displacements,
-                                  const QueryFilter &filter)
-{
-  check_shape_casts(shape, poses, displacements);
-  const minicl::ExactFloatingPoint environment;
-  answer_in_turn(*implementation_, "queries", [&] {
-    tandem::cast_shapes_on_device(implementation_->target_for_kernels(), shape, poses, displacements, filter);
-    implementation_->plan.hits = static_cast<uint32_t>(poses.size());
-    note(implementation_->log, RecordedCall::cast_shapes_on_device, shape, poses, displacements, filter);
-  });
-}
-
 Statistics World::statistics()
 {
   return answer_in_turn(*implementation_, "the statistics", [&] {
@@ -593,6 +294,7 @@ std::vector<KernelTime> World::take_kernel_times() { return implementation_->bac
 double World::build_milliseconds() const { return implementation_->backends.build_milliseconds(); }
 uint64_t World::launches() const { return implementation_->backends.launches(); }
 uint64_t World::bytes_moved() const { return implementation_->memory.moves().bytes; }
+uint64_t World::device_reads() const { return implementation_->memory.moves().reads; }
 uint32_t World::resident_groups() const { return implementation_->backends.resident_groups(); }
 
 void World::prepare_kernels()

@@ -316,6 +316,7 @@ void Worlds::set_profiling(bool on) { implementation_->world->set_profiling(on);
 std::vector<KernelTime> Worlds::take_kernel_times() { return implementation_->world->take_kernel_times(); }
 uint64_t Worlds::launches() const { return implementation_->world->launches(); }
 uint64_t Worlds::bytes_moved() const { return implementation_->world->bytes_moved(); }
+uint64_t Worlds::device_reads() const { return implementation_->world->device_reads(); }
 double Worlds::build_milliseconds() const { return implementation_->world->build_milliseconds(); }
 
 } // namespace tandem

@@ -116,16 +116,6 @@ SHARED void color_assign_item(GLOBAL const Parameters *parameters, read_world_pa
                bid_in_world(parameters, pairs, i), round, i);
 }
 
-/* The bodies of overflow constraints take the overflow bit, so that a body with no other constraint does not count as
- * free. A kernel of its own sets the bit, because no colouring may read it at the same time. */
-SHARED void mark_overflow_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
-                               GLOBAL const uint *body_flags, GLOBAL uint *body_colors, uint i)
-{
-  uint a = constraint_a[i], b = constraint_b[i];
-  if (is_moving(body_flags, a)) occupy_color(body_colors, a, COLOR_OVERFLOW);
-  if (is_moving(body_flags, b)) occupy_color(body_colors, b, COLOR_OVERFLOW);
-}
-
 /* The oracle: one item colours all contacts greedily in pair order. The sequential batching of the talks (GS-4150 slide
  * 42) fills batch after batch and takes each contact whose bodies are free; a contact comes into batch k if earlier
  * ones bar it from the batches before k, so "the lowest free colour, in order" gives the same batches in one pass. */

@@ -56,13 +56,10 @@ SHARED void batch_reserve_item(GLOBAL const uint *pair_a, GLOBAL const uint *pai
 }
 
 /* After the last batch, the contacts that are left join the overflow constraints. */
-SHARED void batch_rest_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *body_flags,
-                            GLOBAL uint *counts, GLOBAL uint *pair_color, GLOBAL uint *body_colors, uint i)
+SHARED void batch_rest_item(GLOBAL uint *counts, GLOBAL uint *pair_color, uint i)
 {
   if (pair_color[i] != COLOR_NONE) return;
   pair_color[i] = COLOR_OVERFLOW;
-  if (is_moving(body_flags, pair_a[i])) occupy_color(body_colors, pair_a[i], COLOR_OVERFLOW);
-  if (is_moving(body_flags, pair_b[i])) occupy_color(body_colors, pair_b[i], COLOR_OVERFLOW);
   ATOMIC_ADD(counts + COUNT_UNCOLORED, 0xffffffffu);
 }
 

@@ -47,7 +47,7 @@ SHARED convex convex_of(uint_lanes kind, vec3 size, mat3 rotation, vec3 offset, 
   shape.center = add(offset, rotate(rotation, middle));
   shape.aligned = 0;
   shape.tables = tables;
-  hull_ranges none = {0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u};
+  hull_ranges none = {0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u};
   shape.hull = none;
   shape.triangle = INDEX_NONE;
   shape.second = shape.third = make_vec3(R(0.0), R(0.0), R(0.0));

@@ -82,10 +82,10 @@ SHARED field_height height_above_field(const convex *shape, vec3 own)
     return best;
   }
   cube_place at = place_on_cube(subtract(own, middle_of_field(shape)));
-  uint cells = shape->hull.map_side;
+  uint cells = shape->hull.field_side, map_cells = shape->hull.map_side;
   real half_cell = R(1.0) / to_real(cells);
   GLOBAL const uint *faces = shape->tables.links + shape->hull.first_link + shape->hull.vertices + 1u +
-                             2u * shape->hull.corners + 6u * cells * cells;
+                             2u * shape->hull.corners + 6u * map_cells * map_cells;
   for (uint k = 0u; k < 4u; ++k) {
     cube_place near = {at.side, at.u + ((k & 1u) == 1u ? half_cell : -half_cell),
                        at.v + ((k & 2u) == 2u ? half_cell : -half_cell)};

@@ -23,8 +23,8 @@
 
 /* The tables hold all hulls and meshes of the scene, one behind the other. A hull's header: first vertex, vertices,
  * first face, faces, first edge, edges, first corner, corners, first row of chunks, first link, cells along a side of
- * the cube map. */
-#define HULL_HEADER 11u
+ * the cube map of farthest vertices and of that of faces; 0 if the hull has no such map. */
+#define HULL_HEADER 12u
 typedef struct {
   GLOBAL const uint *headers;     /* HULL_HEADER a hull */
   GLOBAL const float4 *vertices;  /* x y z: about the origin of the shape's axes */
@@ -36,8 +36,8 @@ typedef struct {
       *chunks;              /* a hull: chunks of x y z of its vertices, then of x y z distance of its planes (float8.h);
                                the middle of its vertices */
   GLOBAL const uint *links; /* a hull: its face_of_vertex starts, as many as vertices and one more; the faces of each
-                               vertex, ascending; for each corner the edge to the next; the cube maps: of farthest
-                               vertices, and of faces seen from the middle (cube_field.h) */
+                               vertex, ascending; for each corner the edge to the next; the cube maps that it has: of
+                               farthest vertices, and of faces seen from the middle (cube_field.h) */
   GLOBAL const float4 *mesh_vertices; /* x y z: about the origin of the mesh's axes */
   GLOBAL const uint *mesh_triangles;  /* 6 a triangle: its vertices, counter-clockwise seen from outside; its neighbours
                                         across 0-1, 1-2, 2-0 */
@@ -55,7 +55,7 @@ SHARED hull_tables tables_of(read_surfaces surfaces, uint support)
 
 typedef struct {
   uint first_vertex, vertices, first_face, faces, first_edge, edges, first_corner, corners, first_chunk, first_link,
-      map_side;
+      map_side, field_side;
 } hull_ranges;
 
 SHARED uint chunks_of(uint entries) { return (entries + CHUNK - 1u) / CHUNK; }
@@ -63,8 +63,8 @@ SHARED uint chunks_of(uint entries) { return (entries + CHUNK - 1u) / CHUNK; }
 SHARED hull_ranges ranges_of_hull(const hull_tables *tables, uint hull)
 {
   GLOBAL const uint *header = tables->headers + hull * HULL_HEADER;
-  hull_ranges ranges = {header[0], header[1], header[2], header[3], header[4], header[5],
-                        header[6], header[7], header[8], header[9], header[10]};
+  hull_ranges ranges = {header[0], header[1], header[2], header[3], header[4],  header[5],
+                        header[6], header[7], header[8], header[9], header[10], header[11]};
   return ranges;
 }
 

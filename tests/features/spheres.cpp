@@ -188,6 +188,21 @@ TEST_CASE("a world that is refused a feature goes on as if it had not been asked
   CHECK(asked.create_bodies(std::span(&sphere, 1)).size() == 1);
 }
 
+TEST_CASE("a body that is refused a feature in its sleep sleeps on")
+{
+  Settings settings;
+  settings.sleeping = true;
+  World world(load_scene("spheres:n=1,height=0"), settings, {"serial", {}});
+  for (int step = 0; step < 200 && world.statistics().asleep == 0; ++step) world.step();
+  REQUIRE(world.statistics().asleep == 1);
+  const BodyId body = world.id_of(1);
+  const BodyProperties properties = locked();
+  CHECK_THROWS_AS(world.set_properties(std::span(&body, 1), std::span(&properties, 1)), InputError);
+  CHECK(world.statistics().asleep == 1);
+  world.step();
+  CHECK(world.statistics().asleep == 1);
+}
+
 TEST_CASE("a batch that is refused a feature goes on as if it had not been asked for")
 {
   const Scene scene = load_scene("spheres:n=10");

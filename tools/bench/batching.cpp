@@ -15,7 +15,9 @@
 #include "host/catalog/catalog.h"
 #include "host/pipeline/batching/batcher.h"
 #include "host/pipeline/layout.h"
+#include "host/runtime/interface/kernel_list.h"
 #include "tools/command/progress.h"
+#include "tools/command/scene_options.h"
 
 namespace tandem {
 namespace {
@@ -125,12 +127,32 @@ private:
   std::array<uint32_t, COUNT_TOTAL> counts_{};
 };
 
-/* Steps until so many pairs touch. */
-BatchScene batch_scene(const std::string &text, const std::string &backend, bool allow_inexact, uint64_t most_steps,
-                       uint32_t wanted)
+/* A body that cannot move joins no contacts, and no solver writes it. */
+void measure_chains(World &world, BatchScene &scene)
 {
-  World world(load_scene(text), Settings{}, Placement{backend, {}, allow_inexact});
-  BatchScene result{text, 0, 0, 0, 0, {}, {}};
+  const auto a = world.memory().read<uint32_t>(Buffer::constraint_a, scene.constraints),
+             b = world.memory().read<uint32_t>(Buffer::constraint_b, scene.constraints);
+  const auto moves = [&](uint32_t body) {
+    return world.scene().bodies[world.scene_body(body)].type == BodyType::dynamic;
+  };
+  std::vector<uint32_t> contacts(scene.bodies), chains(scene.bodies);
+  for (uint32_t i = 0; i < scene.constraints; ++i) {
+    uint32_t chain = 0;
+    for (const uint32_t body : {a[i], b[i]})
+      if (moves(body)) chain = std::max(chain, chains[body]), ++contacts[body];
+    for (const uint32_t body : {a[i], b[i]})
+      if (moves(body)) chains[body] = chain + 1;
+    scene.longest_chain = std::max(scene.longest_chain, chain + 1);
+  }
+  if (scene.bodies > 0) scene.most_of_body = *std::max_element(contacts.begin(), contacts.end());
+}
+
+/* Steps until so many pairs touch. */
+BatchScene batch_scene(const std::string &text, const BatchingRequest &request, uint64_t most_steps, uint32_t wanted)
+{
+  World world(load_scene(text), Settings{}, Placement{request.backend, {}, request.allow_inexact});
+  BatchScene result;
+  result.scene = text;
   Progress progress("simulating " + text, most_steps);
   std::vector<uint32_t> counts;
   do {
@@ -142,6 +164,7 @@ BatchScene batch_scene(const std::string &text, const std::string &backend, bool
   result.bodies = counts[COUNT_BODIES];
   result.pairs = counts[COUNT_PAIRS];
   result.constraints = counts[COUNT_CONSTRAINTS];
+  measure_chains(world, result);
   BatchingBench bench(world, world.backend_of(Kernel::match_pairs));
   for (const BatcherRow &batcher : batchers()) {
     result.tables.push_back(bench.run(batcher, false));
@@ -188,23 +211,29 @@ double fill_of(const BatchTable &table)
 
 } // namespace
 
-std::vector<BatchScene> bench_batching(const std::string &backend, uint64_t boxes, bool allow_inexact)
+std::vector<BatchScene> bench_batching(const BatchingRequest &request)
 {
-  if (boxes) {
-    const auto side = static_cast<uint64_t>(std::max(1.0, std::round(std::cbrt(static_cast<double>(boxes)))));
-    return {batch_scene(fmt::format("box-grid:nx={0},ny={0},nz={0}", side), backend, allow_inexact, 60, UINT32_MAX)};
+  std::vector<BatchScene> scenes;
+  for (const std::string &scene : request.scenes)
+    scenes.push_back(batch_scene(scene, request, request.steps, UINT32_MAX));
+  if (request.boxes) {
+    const auto side = static_cast<uint64_t>(std::max(1.0, std::round(std::cbrt(static_cast<double>(request.boxes)))));
+    scenes.push_back(batch_scene(fmt::format("box-grid:nx={0},ny={0},nz={0}", side), request, 60, UINT32_MAX));
   }
-  std::vector<BatchScene> scenes{batch_scene("pyramid-2d", backend, allow_inexact, 1, 0)};
+  if (!scenes.empty()) return scenes;
+  scenes.push_back(batch_scene("pyramid-2d", request, 1, 0));
   scenes.back().talk = talk_2d;
-  scenes.push_back(batch_scene("talk-3d", backend, allow_inexact, 1000, sum_of(talk_3d)));
+  scenes.push_back(batch_scene("talk-3d", request, 1000, sum_of(talk_3d)));
   scenes.back().talk = talk_3d;
   return scenes;
 }
 
 std::string batch_text(const BatchScene &scene)
 {
-  std::string text = fmt::format("{} after {} steps: {} bodies, {} pairs of bounds, {} contacts\n{}", scene.scene,
-                                 scene.steps, scene.bodies, scene.pairs, scene.constraints, size_table(scene));
+  std::string text = fmt::format("{} after {} steps: {} bodies, {} pairs of bounds, {} contacts, at most {} of one "
+                                 "body, the longest chain {}\n{}",
+                                 scene.scene, scene.steps, scene.bodies, scene.pairs, scene.constraints,
+                                 scene.most_of_body, scene.longest_chain, size_table(scene));
   Table table({"batcher", "batches", "tail", "fill", "rounds", "ms", "least", "most", "check"});
   for (const BatchTable &t : scene.tables)
     table.add({t.batcher, fmt::format("{}", t.sizes.size()), fmt::format("{}", t.overflow),
@@ -216,8 +245,14 @@ std::string batch_text(const BatchScene &scene)
 
 Json batch_json(const BatchScene &scene)
 {
-  Json json = {{"scene", scene.scene},     {"steps", scene.steps},          {"bodies", scene.bodies},
-               {"pairs", scene.pairs},     {"contacts", scene.constraints}, {"talk", scene.talk},
+  Json json = {{"scene", scene.scene},
+               {"steps", scene.steps},
+               {"bodies", scene.bodies},
+               {"pairs", scene.pairs},
+               {"contacts", scene.constraints},
+               {"talk", scene.talk},
+               {"most_of_body", scene.most_of_body},
+               {"longest_chain", scene.longest_chain},
                {"batchers", Json::array()}};
   for (const BatchTable &t : scene.tables)
     json["batchers"].push_back(
@@ -230,6 +265,29 @@ Json batch_json(const BatchScene &scene)
          {"ms", {{"median", t.milliseconds.median}, {"min", t.milliseconds.minimum}, {"max", t.milliseconds.maximum}}},
          {"right", t.right}});
   return json;
+}
+
+int execute_batching(const BenchOptions &options)
+{
+  BatchingRequest request{options.on, options.inexact, {}};
+  if (!options.scenes.empty()) request.scenes = scenes_of_parts(options.scenes);
+  if (!options.count.empty()) request.boxes = whole_number("--n", options.count, 1, most_bodies);
+  if (!options.steps.empty()) request.steps = whole_number("--steps", options.steps, 1, 100000);
+  if (!options.steps.empty() && options.scenes.empty())
+    throw InputError(
+        "--steps: bench batching takes it with --scene alone, whose contacts are those after so many steps");
+  options.json.check();
+  const std::vector<BatchScene> scenes = bench_batching(request);
+  Json json = {{"what", options.what}, {"backend", options.on}, {"scenes", Json::array()}};
+  bool right = true;
+  for (const BatchScene &scene : scenes) {
+    if (!options.json.takes_standard_output())
+      fmt::print("{}on {}: {}", &scene == &scenes.front() ? "" : "\n", options.on, batch_text(scene));
+    json["scenes"].push_back(batch_json(scene));
+    for (const BatchTable &table : scene.tables) right = right && table.right;
+  }
+  options.json.write(json);
+  return right ? 0 : 1;
 }
 
 } // namespace tandem

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/bench/options.h"
 #include "tools/command/measure.h"
 #include "tools/command/output.h"
 
@@ -22,14 +23,27 @@ struct BatchScene {
   std::string scene;
   uint64_t steps = 0; /* simulated before the contacts were taken */
   uint32_t bodies = 0, pairs = 0, constraints = 0;
+  /* The most contacts of one moving body, and the longest chain of contacts, each of which shares a moving body with a
+   * later one, in the order of the run's colours: no schedule that keeps the bits takes fewer phases. */
+  uint32_t most_of_body = 0, longest_chain = 0;
   std::vector<uint32_t> talk; /* the talk's sizes; empty if it has none */
   std::vector<BatchTable> tables;
 };
 
-/* The scenes of the talk, or a cube of about `boxes` boxes if that is not 0. */
-std::vector<BatchScene> bench_batching(const std::string &backend, uint64_t boxes, bool allow_inexact);
+/* Scenes with parameters and the steps before their contacts are taken; or a cube of about `boxes` boxes, if that is
+ * not 0; or else the scenes of the talk. */
+struct BatchingRequest {
+  std::string backend;
+  bool allow_inexact = false;
+  std::vector<std::string> scenes;
+  uint64_t steps = 200, boxes = 0;
+};
+std::vector<BatchScene> bench_batching(const BatchingRequest &request);
 
 std::string batch_text(const BatchScene &scene);
 Json batch_json(const BatchScene &scene);
+
+/* Runs every batcher on one list of contacts; the exit status is 1 if the check finds a wrong batch. */
+int execute_batching(const BenchOptions &options);
 
 } // namespace tandem

@@ -9,6 +9,8 @@
 
 #include <tandem/world.h>
 
+#include "tools/command/scene_options.h"
+
 namespace tandem {
 namespace {
 
@@ -111,6 +113,19 @@ Json bodies_json(const std::vector<BodyTimes> &times)
                     {"destroy_ms", spread_json(row.destroy)},
                     {"read_ms", spread_json(row.read)}});
   return json;
+}
+
+int execute_bodies(const BenchOptions &options)
+{
+  std::vector<uint64_t> counts{1000, 10000};
+  if (!options.count.empty()) counts = {whole_number("--n", options.count, 1, most_bodies)};
+  options.json.check();
+  std::vector<BodyTimes> times;
+  for (const uint64_t count : counts) times.push_back(bench_bodies(options.on, count, options.inexact));
+  if (!options.json.takes_standard_output())
+    fmt::print("bodies on {}: medians, the wait for the device included\n{}", options.on, bodies_text(times));
+  options.json.write({{"what", options.what}, {"backend", options.on}, {"worlds", bodies_json(times)}});
+  return 0;
 }
 
 } // namespace tandem

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/bench/options.h"
 #include "tools/command/measure.h"
 #include "tools/command/output.h"
 
@@ -24,5 +25,7 @@ BodyTimes bench_bodies(const std::string &backend, uint64_t bodies, bool allow_i
 
 std::string bodies_text(const std::vector<BodyTimes> &times);
 Json bodies_json(const std::vector<BodyTimes> &times);
+
+int execute_bodies(const BenchOptions &options);
 
 } // namespace tandem

@@ -3,13 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <numeric>
 
 #include <fmt/format.h>
 
 #include "host/runtime/make_backend.h"
 #include "tools/bench/broadphase_frames.h"
+#include "tools/command/distinct_files.h"
 #include "tools/command/progress.h"
+#include "tools/command/scene_options.h"
 #include "tools/plot/chart.h"
 
 namespace tandem {
@@ -186,6 +189,14 @@ Chart chart_of(const BroadphaseScene &scene, const std::string &backend)
   return chart;
 }
 
+constexpr const char *broadphase_time = "from bounds that are ready to the sorted pair list";
+
+void print_scene(const BroadphaseScene &scene)
+{
+  fmt::print("{}\n", broadphase_text(scene));
+  std::fflush(stdout);
+}
+
 } // namespace
 
 BroadphaseRequest broadphase_request(const std::vector<std::string> &names, const std::vector<std::string> &scenes)
@@ -280,6 +291,34 @@ std::string broadphase_chart(const std::vector<BroadphaseScene> &scenes, const s
   std::vector<Chart> charts;
   for (const BroadphaseScene &scene : scenes) charts.push_back(chart_of(scene, backend));
   return svg_of(charts);
+}
+
+int execute_broadphase(const BenchOptions &options)
+{
+  BroadphaseRequest request = broadphase_request(options.broadphases, options.scenes);
+  request.backend = options.on;
+  request.allow_inexact = options.inexact;
+  request.bodies = {1000, 10000, 100000, 1000000};
+  if (!options.count.empty())
+    request.bodies = {static_cast<uint32_t>(whole_number("--n", options.count, 2, most_bodies))};
+  DistinctFiles files;
+  options.json.check(files);
+  files.writes("--chart", options.chart);
+  const bool prints = !options.json.takes_standard_output();
+  const std::vector<BroadphaseScene> scenes = bench_broadphase(
+      request, prints ? print_scene : [](const BroadphaseScene &) {});
+  if (prints) fmt::print("on {}: medians, ms a frame, {}\n", options.on, broadphase_time);
+  const std::vector<std::string> differences = differences_of(scenes);
+  Json json = {{"what", options.what},
+               {"backend", options.on},
+               {"timed", broadphase_time},
+               {"equal", differences.empty()},
+               {"scenes", Json::array()}};
+  for (const BroadphaseScene &scene : scenes) json["scenes"].push_back(broadphase_json(scene));
+  options.json.write(json);
+  if (!options.chart.empty()) write_file("--chart", options.chart, broadphase_chart(scenes, options.on));
+  for (const std::string &line : differences) fmt::print(stderr, "tandem: {}\n", line);
+  return differences.empty() ? 0 : 1;
 }
 
 } // namespace tandem

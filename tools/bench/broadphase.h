@@ -14,6 +14,7 @@
 
 #include "host/pipeline/broadphases/broadphase.h"
 #include "tools/bench/broadphase_inputs.h"
+#include "tools/bench/options.h"
 #include "tools/command/measure.h"
 #include "tools/command/output.h"
 
@@ -69,5 +70,8 @@ std::string broadphase_text(const BroadphaseScene &scene);
 Json broadphase_json(const BroadphaseScene &scene);
 /* One chart for each scene, one below the other. */
 std::string broadphase_chart(const std::vector<BroadphaseScene> &scenes, const std::string &backend);
+
+/* The exit status is 1 if any two broadphases give different pairs. */
+int execute_broadphase(const BenchOptions &options);
 
 } // namespace tandem

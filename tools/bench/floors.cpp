@@ -11,6 +11,7 @@
 #include <array>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <tandem/load_scene.h>
 #include <tandem/world.h>
@@ -19,6 +20,8 @@
 #include "host/runtime/memory.h"
 #include "host/world/step_parts.h"
 #include "tools/bench/primitives.h"
+#include "tools/command/distinct_files.h"
+#include "tools/command/marked_table.h"
 #include "tools/command/measure.h"
 #include "tools/command/progress.h"
 
@@ -129,6 +132,12 @@ Table table_of(const Floors &floors)
   return table;
 }
 
+/* A scene may have parameters, whose commas part the option. */
+std::string floors_scene(const BenchOptions &options)
+{
+  return options.scenes.empty() ? "box-grid" : fmt::format("{}", fmt::join(options.scenes, ","));
+}
+
 } // namespace
 
 uint64_t least_bytes(World &world, const Launch &launch) { return least_bytes(world, counts_of(world), launch); }
@@ -174,6 +183,24 @@ Json floors_json(const Floors &floors)
           {"bytes_per_second", floors.bytes_per_second},
           {"step_ms", floors.step_milliseconds},
           {"stages", stages}};
+}
+
+int execute_floors(const BenchOptions &options)
+{
+  const std::string scene = floors_scene(options);
+  const MarkedTable table{options.table, "floors " + options.on};
+  DistinctFiles files;
+  options.json.check(files);
+  table.check(files);
+  const Floors floors = bench_floors(scene, {options.on, {}, options.inexact});
+  if (!options.json.takes_standard_output()) fmt::print("{}", floors_text(floors));
+  table.write(fmt::format("```\ntandem bench floors --on {} --scene {} --table-in {}\n```\n{}", options.on, scene,
+                          options.table, floors_markdown(floors)));
+  Json json = floors_json(floors);
+  json["what"] = options.what;
+  json["backend"] = options.on;
+  options.json.write(json);
+  return 0;
 }
 
 } // namespace tandem

@@ -9,6 +9,7 @@
 #include <tandem/backend.h>
 #include <tandem/world.h>
 
+#include "tools/bench/options.h"
 #include "tools/command/output.h"
 
 namespace tandem {
@@ -37,5 +38,7 @@ Floors bench_floors(const std::string &scene, const Placement &placement);
 std::string floors_text(const Floors &floors);
 std::string floors_markdown(const Floors &floors);
 Json floors_json(const Floors &floors);
+
+int execute_floors(const BenchOptions &options);
 
 } // namespace tandem

@@ -1,12 +1,14 @@
 /* left_out.cpp - steps a world beside one that runs a feature which the scene lacks; see left_out.h. */
 #include "tools/bench/left_out.h"
 
+#include <cstdio>
 #include <functional>
 #include <memory>
 #include <stdexcept>
 
 #include <fmt/format.h>
 
+#include <tandem/error.h>
 #include <tandem/load_scene.h>
 #include <tandem/world.h>
 
@@ -14,6 +16,8 @@
 #include "host/runtime/interface/features.h"
 #include "host/scene/specialise.h"
 #include "host/world/forced_features.h"
+#include "tools/command/distinct_files.h"
+#include "tools/command/marked_table.h"
 #include "tools/command/progress.h"
 
 namespace tandem {
@@ -24,14 +28,6 @@ constexpr Features chosen_features = FEATURE_AXES | FEATURE_EXPANSION | FEATURE_
                                      FEATURE_SAT_SPLIT | FEATURE_HILL_CLIMBING | FEATURE_CUBE_MAP |
                                      FEATURE_SUBSTEP_WARM_START | FEATURE_WORLDS | FEATURE_PGS | FEATURE_NNCG |
                                      FEATURE_XPBD | FEATURE_AVBD;
-
-/* The feature, and those without whose buffers its kernels could not run. */
-Features with_needs(Features feature)
-{
-  constexpr Features of_convex = FEATURE_HULL | FEATURE_ROUND | FEATURE_TREES | FEATURE_CONTINUOUS |
-                                 FEATURE_CONVEX_CONVEX | FEATURE_CONVEX_HALF_SPACE;
-  return (feature & of_convex) != 0 ? feature | FEATURE_CONVEX : feature;
-}
 
 struct TimedWorld {
   std::unique_ptr<World> world;
@@ -177,6 +173,28 @@ Json left_out_json(const std::vector<LeftOut> &rows)
                       {"with", cost_json(row.with)}});
     else json.push_back({{"scene", row.scene}, {"feature", row.feature}, {"failure", row.failure}});
   return json;
+}
+
+int execute_left_out(const BenchOptions &options)
+{
+  const ScenesRequest request = scenes_request(options);
+  const MarkedTable table{options.table, "left-out " + options.on};
+  DistinctFiles files;
+  options.json.check(files);
+  table.check(files);
+  const std::vector<LeftOut> rows = bench_left_out(request);
+  if (!options.json.takes_standard_output())
+    fmt::print("left out on {}: {} steps after {}, launches by their median, times by their least\n{}", options.on,
+               request.steps, scene_warm_steps, left_out_text(rows));
+  table.write(fmt::format("```\n{}\n```\n{}", scenes_command_text(options), left_out_markdown(rows)));
+  options.json.write({{"what", options.what},
+                      {"backend", options.on},
+                      {"steps", request.steps},
+                      {"features", scene_feature_names()},
+                      {"rows", left_out_json(rows)}});
+  const std::vector<std::string> failures = failures_of(rows);
+  for (const std::string &line : failures) fmt::print(stderr, "tandem: {}\n", line);
+  return failures.empty() ? 0 : 1;
 }
 
 } // namespace tandem

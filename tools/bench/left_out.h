@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/bench/options.h"
 #include "tools/bench/scenes.h"
 
 namespace tandem {
@@ -33,5 +34,8 @@ std::vector<std::string> failures_of(const std::vector<LeftOut> &rows); /* a lin
 std::string left_out_text(const std::vector<LeftOut> &rows);
 std::string left_out_markdown(const std::vector<LeftOut> &rows);
 Json left_out_json(const std::vector<LeftOut> &rows);
+
+/* The exit status is 1 if a row has no costs. */
+int execute_left_out(const BenchOptions &options);
 
 } // namespace tandem

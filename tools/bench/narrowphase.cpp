@@ -23,6 +23,7 @@
 #include "shared/narrowphase/collide_convex.h"
 #include "tools/command/parallel.h"
 #include "tools/command/progress.h"
+#include "tools/command/scene_options.h"
 
 namespace tandem {
 namespace {
@@ -357,6 +358,19 @@ Json narrowphase_json(const std::vector<PairTime> &times)
          {"ms", {{"median", t.milliseconds.median}, {"min", t.milliseconds.minimum}, {"max", t.milliseconds.maximum}}},
          {"manifolds_per_second", a_second(t)}});
   return json;
+}
+
+int execute_narrowphase(const BenchOptions &options)
+{
+  const uint64_t pairs = options.count.empty() ? 4096 : whole_number("--n", options.count, 1, most_bodies / 2);
+  options.json.check();
+  const std::vector<PairTime> times =
+      bench_narrowphase(options.on, static_cast<uint32_t>(pairs), options.pairs, options.inexact);
+  if (!options.json.takes_standard_output())
+    fmt::print("{} on {}: {} pairs of each kind\n{}", options.what, options.on, pairs, narrowphase_text(times));
+  options.json.write(
+      {{"what", options.what}, {"backend", options.on}, {"n", pairs}, {"pairs", narrowphase_json(times)}});
+  return 0;
 }
 
 } // namespace tandem

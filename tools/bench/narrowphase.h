@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/bench/options.h"
 #include "tools/command/measure.h"
 #include "tools/command/output.h"
 
@@ -25,5 +26,7 @@ std::vector<PairTime> bench_narrowphase(const std::string &backend, uint32_t pai
 
 std::string narrowphase_text(const std::vector<PairTime> &times);
 Json narrowphase_json(const std::vector<PairTime> &times);
+
+int execute_narrowphase(const BenchOptions &options);
 
 } // namespace tandem

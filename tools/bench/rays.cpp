@@ -10,6 +10,7 @@
 
 #include "host/base/random.h"
 #include "host/runtime/interface/kernel_list.h"
+#include "tools/command/scene_options.h"
 
 namespace tandem {
 namespace {
@@ -90,6 +91,8 @@ std::vector<RayTime> time_rays(World &world, const std::string &structure, const
   return {making, nearest, blocked};
 }
 
+constexpr uint32_t boxes_for_rays = 100000;
+
 } // namespace
 
 std::vector<RayTime> bench_rays(const std::string &backend, uint32_t boxes, uint32_t rays, bool allow_inexact)
@@ -133,6 +136,22 @@ Json rays_json(const std::vector<RayTime> &times, uint32_t rays)
                       {"min", time.milliseconds.minimum},
                       {"max", time.milliseconds.maximum}}}});
   return list;
+}
+
+int execute_rays(const BenchOptions &options)
+{
+  const auto rays =
+      static_cast<uint32_t>(options.count.empty() ? 1000000 : whole_number("--n", options.count, 1, uint64_t{1} << 26));
+  options.json.check();
+  const std::vector<RayTime> times = bench_rays(options.on, boxes_for_rays, rays, options.inexact);
+  if (!options.json.takes_standard_output())
+    fmt::print("rays on {}: {} rays, {} boxes\n{}", options.on, rays, boxes_for_rays, rays_text(times, rays));
+  options.json.write({{"what", options.what},
+                      {"backend", options.on},
+                      {"n", rays},
+                      {"boxes", boxes_for_rays},
+                      {"times", rays_json(times, rays)}});
+  return 0;
 }
 
 } // namespace tandem

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/bench/options.h"
 #include "tools/command/measure.h"
 #include "tools/command/output.h"
 
@@ -22,5 +23,7 @@ std::vector<RayTime> bench_rays(const std::string &backend, uint32_t boxes, uint
 
 std::string rays_text(const std::vector<RayTime> &times, uint32_t rays);
 Json rays_json(const std::vector<RayTime> &times, uint32_t rays);
+
+int execute_rays(const BenchOptions &options);
 
 } // namespace tandem

@@ -2,18 +2,23 @@
 #include "tools/bench/scenes.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <functional>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <tandem/error.h>
 #include <tandem/load_scene.h>
 #include <tandem/world.h>
 
 #include "host/base/printable.h"
 #include "host/catalog/catalog.h"
 #include "host/runtime/interface/kernel_list.h"
+#include "tools/command/distinct_files.h"
+#include "tools/command/marked_table.h"
 #include "tools/command/progress.h"
+#include "tools/command/scene_options.h"
 
 namespace tandem {
 namespace {
@@ -166,6 +171,45 @@ Json scenes_json(const std::vector<SceneCost> &costs)
   Json json = Json::array();
   for (const SceneCost &cost : costs) json.push_back(cost_json(cost));
   return json;
+}
+
+std::string scenes_command_text(const BenchOptions &options)
+{
+  std::string text = fmt::format("tandem bench {} --on {}", options.what, options.on);
+  if (!options.scenes.empty()) text += fmt::format(" --scene {}", fmt::join(options.scenes, ","));
+  if (!options.steps.empty()) text += " --steps " + options.steps;
+  return text + " --table-in " + options.table;
+}
+
+ScenesRequest scenes_request(const BenchOptions &options)
+{
+  ScenesRequest request;
+  request.scenes = scene_names(options.scenes);
+  request.placement = {options.on, {}, options.inexact};
+  if (!options.steps.empty()) request.steps = whole_number("--steps", options.steps, 1, 100000);
+  return request;
+}
+
+int execute_scenes(const BenchOptions &options)
+{
+  const ScenesRequest request = scenes_request(options);
+  const MarkedTable table{options.table, options.on}; /* a page may have a table of each backend */
+  DistinctFiles files;
+  options.json.check(files);
+  table.check(files);
+  const std::vector<SceneCost> costs = bench_scenes(request);
+  if (!options.json.takes_standard_output())
+    fmt::print("scenes on {}: medians of {} steps after {}\n{}", options.on, request.steps, scene_warm_steps,
+               scenes_text(costs));
+  table.write(fmt::format("```\n{}\n```\n{}", scenes_command_text(options), scenes_markdown(costs)));
+  options.json.write({{"what", options.what},
+                      {"backend", options.on},
+                      {"steps", request.steps},
+                      {"kernels", kernel_count},
+                      {"scenes", scenes_json(costs)}});
+  const std::vector<std::string> failures = failures_of(costs);
+  for (const std::string &line : failures) fmt::print(stderr, "tandem: {}\n", line);
+  return failures.empty() ? 0 : 1;
 }
 
 } // namespace tandem

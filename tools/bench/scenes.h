@@ -9,6 +9,7 @@
 #include <tandem/backend.h>
 #include <tandem/settings.h>
 
+#include "tools/bench/options.h"
 #include "tools/command/measure.h"
 #include "tools/command/output.h"
 
@@ -46,5 +47,13 @@ std::vector<std::string> failures_of(const std::vector<SceneCost> &costs); /* a 
 std::string scenes_text(const std::vector<SceneCost> &costs);
 std::string scenes_markdown(const std::vector<SceneCost> &costs);
 Json scenes_json(const std::vector<SceneCost> &costs);
+
+/* Of the options of bench scenes and bench left-out. */
+ScenesRequest scenes_request(const BenchOptions &options);
+/* The command line that repeats the run, for the page that gets its table. */
+std::string scenes_command_text(const BenchOptions &options);
+
+/* The exit status is 1 if a scene failed; its row says so, and those of the others stand. */
+int execute_scenes(const BenchOptions &options);
 
 } // namespace tandem

@@ -6,12 +6,15 @@
 
 #include <fmt/format.h>
 
+#include <tandem/error.h>
 #include <tandem/load_scene.h>
 
 #include "host/base/printable.h"
 #include "host/io/input_file.h"
 #include "host/io/json/reader.h"
+#include "tools/command/distinct_files.h"
 #include "tools/command/progress.h"
+#include "tools/command/scene_options.h"
 #include "tools/plot/chart.h"
 
 namespace tandem {
@@ -106,6 +109,17 @@ ChartSeries series_of(const SizesRun &run)
   return series;
 }
 
+/* Runs to show together: those of files behind the one that is made, unless --n is 0. */
+std::vector<SizesRun> sizes_beside(const BenchOptions &options, DistinctFiles &files)
+{
+  std::vector<SizesRun> runs;
+  for (const std::string &path : options.beside) {
+    files.reads("--beside", path);
+    runs.push_back(read_sizes(path));
+  }
+  return runs;
+}
+
 } // namespace
 
 std::vector<SizeTime> bench_sizes(const Placement &placement, uint64_t most)
@@ -158,6 +172,25 @@ std::string sizes_chart(const std::vector<SizesRun> &runs)
   Chart chart{"a step of box-grid", {"boxes", AxisScale::logarithmic}, {"ms a step, median", AxisScale::logarithmic}};
   for (const SizesRun &run : runs) chart.series.push_back(series_of(run));
   return svg_of(chart);
+}
+
+int execute_sizes(const BenchOptions &options)
+{
+  const uint64_t most = options.count.empty() ? most_of_sizes : whole_number("--n", options.count, 0, most_bodies);
+  DistinctFiles files;
+  std::vector<SizesRun> runs = sizes_beside(options, files);
+  if (most < 8 && (most > 0 || runs.empty() || !options.json.path.empty()))
+    throw InputError("--n: 8 boxes are the fewest; 0 draws the files of --beside alone, without --json");
+  if (most == 0 && options.on != BenchOptions{}.on)
+    throw InputError("--on: with --n 0 bench sizes makes no steps on a backend; leave it out");
+  options.json.check(files);
+  files.writes("--chart", options.chart);
+  if (most > 0)
+    runs.insert(runs.begin(), {"tandem, " + options.on, bench_sizes({options.on, {}, options.inexact}, most)});
+  if (!options.json.takes_standard_output()) fmt::print("a step of box-grid, median\n{}", sizes_text(runs));
+  if (most > 0) options.json.write(sizes_json(runs.front()));
+  if (!options.chart.empty()) write_file("--chart", options.chart, sizes_chart(runs));
+  return 0;
 }
 
 } // namespace tandem

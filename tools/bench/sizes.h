@@ -15,6 +15,7 @@
 
 #include <tandem/world.h>
 
+#include "tools/bench/options.h"
 #include "tools/command/measure.h"
 #include "tools/command/output.h"
 
@@ -43,5 +44,7 @@ SizesRun read_sizes(const std::string &path);
 std::string sizes_text(const std::vector<SizesRun> &runs);
 Json sizes_json(const SizesRun &run); /* of one that was made here */
 std::string sizes_chart(const std::vector<SizesRun> &runs);
+
+int execute_sizes(const BenchOptions &options);
 
 } // namespace tandem

@@ -9,6 +9,8 @@
 
 #include <tandem/world.h>
 
+#include "tools/command/scene_options.h"
+
 namespace tandem {
 namespace {
 
@@ -122,6 +124,19 @@ Json sleeping_json(const std::vector<SleepTimes> &times)
                     {"fall_ms", spread_json(row.fall)},
                     {"read_ms", spread_json(row.read)}});
   return json;
+}
+
+int execute_sleeping(const BenchOptions &options)
+{
+  std::vector<uint64_t> counts{1000, 10000, 100000};
+  if (!options.count.empty()) counts = {whole_number("--n", options.count, 40, most_bodies)};
+  options.json.check();
+  std::vector<SleepTimes> times;
+  for (const uint64_t count : counts) times.push_back(bench_sleeping(options.on, count, options.inexact));
+  if (!options.json.takes_standard_output())
+    fmt::print("sleeping on {}: medians, the wait for the device included\n{}", options.on, sleeping_text(times));
+  options.json.write({{"what", options.what}, {"backend", options.on}, {"worlds", sleeping_json(times)}});
+  return 0;
 }
 
 } // namespace tandem

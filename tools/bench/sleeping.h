@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/bench/options.h"
 #include "tools/command/measure.h"
 #include "tools/command/output.h"
 
@@ -26,5 +27,7 @@ SleepTimes bench_sleeping(const std::string &backend, uint64_t bodies, bool allo
 
 std::string sleeping_text(const std::vector<SleepTimes> &times);
 Json sleeping_json(const std::vector<SleepTimes> &times);
+
+int execute_sleeping(const BenchOptions &options);
 
 } // namespace tandem

@@ -10,6 +10,7 @@
 #include <tandem/world.h>
 
 #include "host/catalog/catalog.h"
+#include "tools/command/scene_options.h"
 
 namespace tandem {
 namespace {
@@ -102,6 +103,19 @@ Json snapshots_json(const std::vector<SnapshotTimes> &times)
                     {"save_gb_per_s", row.save_gigabytes_per_second()},
                     {"restore_ms", spread_json(row.restore)}});
   return json;
+}
+
+int execute_snapshots(const BenchOptions &options)
+{
+  std::vector<uint64_t> counts{1000, 10000, 100000};
+  if (!options.count.empty()) counts = {whole_number("--n", options.count, 1, most_bodies)};
+  options.json.check();
+  std::vector<SnapshotTimes> times;
+  for (const uint64_t count : counts) times.push_back(bench_snapshots(options.on, count, options.inexact));
+  if (!options.json.takes_standard_output())
+    fmt::print("snapshots on {}: medians, the wait for the device included\n{}", options.on, snapshots_text(times));
+  options.json.write({{"what", options.what}, {"backend", options.on}, {"worlds", snapshots_json(times)}});
+  return 0;
 }
 
 } // namespace tandem

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/bench/options.h"
 #include "tools/command/measure.h"
 #include "tools/command/output.h"
 
@@ -27,5 +28,7 @@ SnapshotTimes bench_snapshots(const std::string &backend, uint64_t bodies, bool 
 
 std::string snapshots_text(const std::vector<SnapshotTimes> &times);
 Json snapshots_json(const std::vector<SnapshotTimes> &times);
+
+int execute_snapshots(const BenchOptions &options);
 
 } // namespace tandem

@@ -9,12 +9,15 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <tandem/error.h>
 #include <tandem/load_scene.h>
 #include <tandem/world.h>
 
 #include "tools/command/child.h"
+#include "tools/command/distinct_files.h"
+#include "tools/command/marked_table.h"
 
 namespace tandem {
 namespace {
@@ -100,6 +103,8 @@ StartTime start_of(const std::string &scene, bool cached, Placement placement, C
 
 const char *word_of(Start start) { return start == Start::on_cpu ? "cpu" : "device"; }
 
+const char *caches_of(const StartTime &time) { return time.cached ? "filled" : "off"; }
+
 Json time_json(const StartTime &time)
 {
   return {{"scene", time.scene},
@@ -157,7 +162,7 @@ std::vector<std::string> start_header()
 std::vector<std::string> start_cells(const StartTime &time)
 {
   return {time.scene,
-          time.cached ? "filled" : "off",
+          caches_of(time),
           word_of(time.start),
           fmt::format("{}", time.kernels),
           fmt::format("{:.2f}", time.made * 1e-3),
@@ -175,18 +180,6 @@ Table table_of(const std::vector<StartTime> &starts)
 }
 
 } // namespace
-
-std::vector<std::string> start_scenes(const std::vector<std::string> &parts)
-{
-  if (parts.empty()) return {"spheres", "box-grid", "convex-hulls"};
-  std::vector<std::string> scenes;
-  for (const std::string &part : parts) {
-    const bool is_parameter = part.find('=') != part.npos && part.find(':') == part.npos;
-    if (is_parameter && !scenes.empty()) scenes.back() += "," + part;
-    else scenes.push_back(part);
-  }
-  return scenes;
-}
 
 /* The caches are filled by a start that is not measured. */
 std::vector<StartTime> bench_starts(const std::vector<std::string> &scenes, const Placement &placement)
@@ -210,6 +203,22 @@ std::vector<StartTime> bench_starts(const std::vector<std::string> &scenes, cons
   return starts;
 }
 
+std::vector<std::string> differences_of(const std::vector<StartTime> &starts)
+{
+  std::vector<std::string> lines;
+  for (const StartTime &time : starts) {
+    const StartTime &first =
+        *std::find_if(starts.begin(), starts.end(), [&](const StartTime &other) { return other.scene == time.scene; });
+    if (time.hash != first.hash)
+      lines.push_back(
+          fmt::format("{}: after the first step the start on the {} with caches {} has the hash {}, that on "
+                      "the {} with caches {} has {}",
+                      time.scene, word_of(time.start), caches_of(time), time.hash, word_of(first.start),
+                      caches_of(first), first.hash));
+  }
+  return lines;
+}
+
 std::string starts_text(const std::vector<StartTime> &starts) { return table_of(starts).text("  "); }
 
 std::string starts_markdown(const std::vector<StartTime> &starts) { return table_of(starts).markdown(3); }
@@ -219,6 +228,25 @@ Json starts_json(const std::vector<StartTime> &starts)
   Json json = Json::array();
   for (const StartTime &time : starts) json.push_back(time_json(time));
   return json;
+}
+
+int execute_starts(const BenchOptions &options)
+{
+  const std::vector<std::string> scenes = options.scenes.empty()
+                                              ? std::vector<std::string>{"spheres", "box-grid", "convex-hulls"}
+                                              : scenes_of_parts(options.scenes);
+  const MarkedTable table{options.table, "starts " + options.on};
+  DistinctFiles files;
+  options.json.check(files);
+  table.check(files);
+  const std::vector<StartTime> starts = bench_starts(scenes, {options.on, {}, options.inexact});
+  if (!options.json.takes_standard_output()) fmt::print("starts on {}:\n{}", options.on, starts_text(starts));
+  table.write(fmt::format("```\ntandem bench starts --on {} --scene {} --table-in {}\n```\n{}", options.on,
+                          fmt::join(scenes, ","), options.table, starts_markdown(starts)));
+  options.json.write({{"what", options.what}, {"backend", options.on}, {"starts", starts_json(starts)}});
+  const std::vector<std::string> differences = differences_of(starts);
+  for (const std::string &line : differences) fmt::print(stderr, "tandem: {}\n", line);
+  return differences.empty() ? 0 : 1;
 }
 
 } // namespace tandem

@@ -11,6 +11,7 @@
 
 #include <tandem/backend.h>
 
+#include "tools/bench/options.h"
 #include "tools/command/output.h"
 
 namespace tandem {
@@ -29,15 +30,17 @@ struct StartTime {
   std::string hash; /* of the state after the first step */
 };
 
-/* The scenes of an option whose values commas part, as they part the parameters of a scene; some that differ in their
- * kernels where there are none. */
-std::vector<std::string> start_scenes(const std::vector<std::string> &parts);
-
 /* Throws InputError if the placement is on no device, or a scene does not exist. */
 std::vector<StartTime> bench_starts(const std::vector<std::string> &scenes, const Placement &placement);
+
+/* A line for each start whose first step has other bits than the first start of its scene. */
+std::vector<std::string> differences_of(const std::vector<StartTime> &starts);
 
 std::string starts_text(const std::vector<StartTime> &starts);
 std::string starts_markdown(const std::vector<StartTime> &starts);
 Json starts_json(const std::vector<StartTime> &starts);
+
+/* The exit status is 1 if two starts of a scene differ in their bits. */
+int execute_starts(const BenchOptions &options);
 
 } // namespace tandem

@@ -13,6 +13,7 @@
 #include "host/runtime/interface/kernel_list.h"
 #include "host/runtime/memory.h"
 #include "shared/narrowphase/hull_support.h"
+#include "tools/command/scene_options.h"
 
 namespace tandem {
 namespace {
@@ -167,6 +168,18 @@ Json support_json(const std::vector<SupportTime> &times)
          {"ns", {{"brute-force", t.brute_force}, {"hill-climbing", t.hill_climbing}, {"cube-map", t.cube_map}}},
          {"differences", t.differences}});
   return json;
+}
+
+int execute_support(const BenchOptions &options)
+{
+  const uint64_t directions =
+      options.count.empty() ? 200000 : whole_number("--n", options.count, 1000, uint64_t{1} << 28);
+  options.json.check();
+  const std::vector<SupportTime> times = bench_support(directions);
+  if (!options.json.takes_standard_output())
+    fmt::print("support: {} directions of each hull\n{}", directions, support_text(times));
+  options.json.write({{"what", options.what}, {"n", directions}, {"hulls", support_json(times)}});
+  return std::any_of(times.begin(), times.end(), [](const SupportTime &time) { return time.differences > 0; }) ? 1 : 0;
 }
 
 } // namespace tandem

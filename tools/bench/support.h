@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/bench/options.h"
 #include "tools/command/output.h"
 
 namespace tandem {
@@ -24,5 +25,8 @@ struct SupportTime {
 std::vector<SupportTime> bench_support(uint64_t directions);
 std::string support_text(const std::vector<SupportTime> &times);
 Json support_json(const std::vector<SupportTime> &times);
+
+/* The exit status is 1 if hill climbing ever ends at another vertex. */
+int execute_support(const BenchOptions &options);
 
 } // namespace tandem

@@ -10,6 +10,7 @@
 
 #include "host/catalog/catalog.h"
 #include "tools/command/progress.h"
+#include "tools/command/scene_options.h"
 
 namespace tandem {
 namespace {
@@ -95,6 +96,18 @@ Json worlds_json(const std::vector<WorldsTime> &times)
                     {"worlds_alone", row.worlds_alone},
                     {"alone_ms", row.alone}});
   return json;
+}
+
+int execute_worlds(const BenchOptions &options)
+{
+  std::optional<uint32_t> worlds;
+  if (!options.count.empty()) worlds = static_cast<uint32_t>(whole_number("--n", options.count, 1, most_bodies / 16));
+  options.json.check();
+  const std::vector<WorldsTime> times = bench_worlds(options.on, worlds, options.inexact);
+  if (!options.json.takes_standard_output())
+    fmt::print("worlds on {}: medians, the wait for the device included\n{}", options.on, worlds_text(times));
+  options.json.write({{"what", options.what}, {"backend", options.on}, {"batches", worlds_json(times)}});
+  return 0;
 }
 
 } // namespace tandem

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/bench/options.h"
 #include "tools/command/measure.h"
 #include "tools/command/output.h"
 
@@ -26,5 +27,7 @@ std::vector<WorldsTime> bench_worlds(const std::string &backend, std::optional<u
 
 std::string worlds_text(const std::vector<WorldsTime> &times);
 Json worlds_json(const std::vector<WorldsTime> &times);
+
+int execute_worlds(const BenchOptions &options);
 
 } // namespace tandem

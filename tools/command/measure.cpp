@@ -113,7 +113,7 @@ Measurement measure(Steps &world, uint64_t steps, const std::function<void(uint6
   Measurement result;
   for (uint64_t k = 0; k < steps; ++k) {
     if (k == steps / 2) prepare_for_timing(world);
-    const uint64_t launches = world.launches(), moved = world.bytes_moved();
+    const uint64_t launches = world.launches(), moved = world.bytes_moved(), reads = world.device_reads();
     const bool profiled = is_profiled(k, steps);
     const double milliseconds = profiled ? profiled_step(world, stages) : timed_step(world);
     result.profiled_steps += profiled;
@@ -121,6 +121,7 @@ Measurement measure(Steps &world, uint64_t steps, const std::function<void(uint6
       timed.push_back(milliseconds);
       result.launches += static_cast<double>(world.launches() - launches);
       result.bytes_moved += static_cast<double>(world.bytes_moved() - moved);
+      result.device_reads += static_cast<double>(world.device_reads() - reads);
     }
     if (after_step) after_step(k + 1);
   }
@@ -128,6 +129,7 @@ Measurement measure(Steps &world, uint64_t steps, const std::function<void(uint6
   const auto timed_steps = static_cast<double>(std::max<size_t>(timed.size(), 1));
   result.launches /= timed_steps;
   result.bytes_moved /= timed_steps;
+  result.device_reads /= timed_steps;
   result.step_milliseconds = spread_of(timed);
   result.stages = stages.per_step(result.profiled_steps);
   return result;

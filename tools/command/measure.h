@@ -38,7 +38,8 @@ struct Measurement {
   uint64_t timed_steps = 0, profiled_steps = 0;
   /* Of a timed step, on average: */
   double launches = 0;
-  double bytes_moved = 0; /* between memories of backends */
+  double bytes_moved = 0;  /* between memories of backends */
+  double device_reads = 0; /* by the host, which waits each time */
 };
 
 /* Builds before what a long run builds while it runs, so that no timed step waits for it. Goes on without kernels that

@@ -183,6 +183,7 @@ Json outcome_json(const Outcome &outcome, World &world, const Placement &placeme
           {"placement", placement_json(world.placement_report())},
           {"launches", outcome.measurement.launches},
           {"bytes_moved", outcome.measurement.bytes_moved},
+          {"device_reads", outcome.measurement.device_reads},
           {"resident_groups", world.resident_groups()},
           {"hash", hash_text(outcome.hash)},
           {"body_hash", hash_text(outcome.body_hash)}};
@@ -193,6 +194,14 @@ std::string launches_text(const World &world, const Measurement &measurement)
   const uint32_t groups = world.resident_groups();
   return fmt::format("{:.0f} a step", measurement.launches) +
          (groups > 1 ? fmt::format(", of up to {} work-groups that wait for each other", groups) : "");
+}
+
+/* A CPU's backends have one memory, and the host reads no other. */
+std::string moved_text(const Measurement &measurement)
+{
+  return fmt::format("{} a step between memories", bytes_text(static_cast<uint64_t>(measurement.bytes_moved))) +
+         (measurement.device_reads > 0 ? fmt::format("; the host reads a device {:.0f} times", measurement.device_reads)
+                                       : "");
 }
 
 std::string facts_table(const Outcome &outcome, World &world, const Placement &placement)
@@ -214,8 +223,7 @@ std::string facts_table(const Outcome &outcome, World &world, const Placement &p
   if (placement.automatic) table.add({"placement", placement_text(world.placement_report())});
   if (placement.start == Start::on_cpu) table.add({"start", start_text(world.placement_report(), world.is_placed())});
   table.add({"launches", launches_text(world, outcome.measurement)});
-  table.add({"moved", fmt::format("{} a step between memories",
-                                  bytes_text(static_cast<uint64_t>(outcome.measurement.bytes_moved)))});
+  table.add({"moved", moved_text(outcome.measurement)});
   table.add({"hash", fmt::format("{} (bodies alone {})", hash_text(outcome.hash), hash_text(outcome.body_hash))});
   if (world.settings().check)
     table.add(

@@ -430,6 +430,9 @@ public:
   uint64_t launches() const;
   /* What steps and calls have copied so far between memories, where stages are placed on backends that share none. */
   uint64_t bytes_moved() const;
+  /* How often the host has read so far from memory that is not its own: whole buffers that move, and parts such as the
+   * counts at the end of a step. Each time it waits for the device. */
+  uint64_t device_reads() const;
   /* The work-groups of the largest launch that joins others: 1 where only launches of few items are joined, or none. */
   uint32_t resident_groups() const;
 

@@ -142,6 +142,7 @@ public:
   std::vector<KernelTime> take_kernel_times();
   uint64_t launches() const;
   uint64_t bytes_moved() const;
+  uint64_t device_reads() const;
   double build_milliseconds() const;
 
 private:

@@ -1,164 +1,25 @@
-/* islands.cpp - finds islands, writes each as a dense problem, and stores the solution; see islands.h.
- *
- * The shared headers are included here in double, so that the rows are exactly those of the iterative solver. */
+/* islands.cpp - finds islands, writes each as a dense problem, and stores the solution; see islands.h. */
 #include "host/pipeline/solvers/islands.h"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <numeric>
 #include <span>
 #include <vector>
 
-#include <tbb/task_arena.h>
-
 #include "host/base/arena.h"
+#include "host/pipeline/solvers/island_rows.h"
 #include "host/pipeline/solvers/island_solver.h"
 #include "host/runtime/interface/floating_point.h"
-#include "host/runtime/memory.h"
 #include "host/runtime/parts.h"
-#include "minicl/worker_threads.h"
-
-#define TANDEM_REFERENCE
-namespace tandem::in_double {
-#include "shared/platform.h"
-#include "shared/solve/contact.h"
-} // namespace tandem::in_double
 
 namespace tandem {
 namespace {
 
 using namespace in_double;
-
-using Counts = std::array<uint32_t, COUNT_TOTAL>;
-
-/* Room for so many, or for twice as many as before, so that bodies that come one by one allocate seldom. */
-template <class T> void make_room(std::vector<T> &list, size_t count)
-{
-  if (list.capacity() < count) list.reserve(std::max(count, 2 * list.capacity()));
-}
-
-/* Reads planes that are `stride` apart on the device and `count` apart here. The list gets room for whole planes, so
- * that only a launch with larger buffers allocates. */
-void read_planes(Memory &memory, Buffer buffer, size_t planes, size_t count, size_t stride, std::vector<float4> &rows)
-{
-  make_room(rows, planes * stride);
-  rows.resize(planes * count);
-  for (size_t plane = 0; plane < planes; ++plane)
-    memory.read_reals(buffer, reinterpret_cast<double *>(rows.data() + plane * count), 4 * count, 4 * plane * stride);
-}
-
-void read_reals(Memory &memory, Buffer buffer, size_t count, size_t stride, std::vector<double> &reals)
-{
-  make_room(reals, stride);
-  reals.resize(count);
-  memory.read_reals(buffer, reals.data(), count);
-}
-
-void read_indices(Memory &memory, Buffer buffer, size_t count, size_t stride, std::vector<uint32_t> &indices)
-{
-  make_room(indices, stride);
-  indices.resize(count);
-  memory.download(buffer, indices.data(), count * sizeof(uint32_t));
-}
-
-void write_rows(Memory &memory, Buffer buffer, const float4 *rows, size_t count, size_t first = 0)
-{
-  memory.write_reals(buffer, reinterpret_cast<const double *>(rows), 4 * count, 4 * first);
-}
-
-Parameters read_parameters(Memory &memory)
-{
-  Parameters parameters{};
-  std::array<double, offsetof(Parameters, features) / sizeof(double)> reals{};
-  memory.read_reals(Buffer::parameters, reals.data(), reals.size());
-  std::memcpy(&parameters, reals.data(), sizeof reals);
-  memory.download(Buffer::parameters, &parameters.features, sizeof(Features), reals.size() * sizeof(float));
-  return parameters;
-}
-
-/* Everything that the stage reads, in double; its results are written back from here. */
-struct Rows {
-  void read(Memory &memory, const Counts &counts)
-  {
-    count = counts[COUNT_CONSTRAINTS];
-    stride = counts[CAPACITY_PAIRS];
-    parameters = read_parameters(memory);
-    read_indices(memory, Buffer::constraint_a, count, stride, a);
-    read_indices(memory, Buffer::constraint_b, count, stride, b);
-    read_planes(memory, Buffer::constraint_normal, 1, count, stride, normal);
-    read_points(memory, counts[CAPACITY_POINTS]);
-    read_planes(memory, Buffer::constraint_center, 1, count, stride, center);
-    read_planes(memory, Buffer::constraint_offset, 1, count, stride, offset);
-    read_planes(memory, Buffer::constraint_normal_impulse, 1, count, stride, normal_impulse);
-    read_friction(memory);
-    const size_t body_rows = 2 * size_t{counts[COUNT_BODIES]};
-    read_planes(memory, Buffer::solver_velocity, 1, body_rows, body_rows, velocity);
-    if (has_tensors()) read_planes(memory, Buffer::solver_inertia, 1, body_rows, body_rows, inertia);
-    read_planes(memory, Buffer::solver_delta_pose, 1, body_rows, body_rows, delta);
-    read_reals(memory, Buffer::constraint_slop, count, stride, slop);
-    if (bounces()) read_planes(memory, Buffer::constraint_restitution, 2, count, stride, restitution);
-  }
-
-  /* Points without a plane are zeros (shared/point_rows.h). */
-  void read_points(Memory &memory, size_t of_pair)
-  {
-    make_room(points, 4 * POINT_NUMBERS * size_t{stride});
-    points.assign(4 * POINT_NUMBERS * size_t{count}, 0.0);
-    for (size_t plane = 0; plane < of_pair * POINT_NUMBERS; ++plane)
-      memory.read_reals(Buffer::constraint_points, points.data() + plane * count, count, plane * stride);
-  }
-  double of_point(uint32_t constraint, uint32_t k, uint32_t number) const
-  {
-    return points[size_t{count} * (k * POINT_NUMBERS + number) + constraint];
-  }
-
-  /* A scene without friction has no rows: shared/friction_rows.h. */
-  void read_friction(Memory &memory)
-  {
-    if (rubs()) return read_planes(memory, Buffer::constraint_friction_impulse, 1, count, stride, friction_impulse);
-    make_room(friction_impulse, stride);
-    friction_impulse.assign(count, float4{});
-  }
-
-  bool bounces() const { return HAS_FEATURE(&parameters, RESTITUTION); }
-  bool rubs() const { return HAS_FEATURE(&parameters, FRICTION); }
-  bool has_tensors() const { return HAS_FEATURE(&parameters, GYROSCOPIC); }
-  uint32_t bodies() const { return static_cast<uint32_t>(velocity.size() / 2); }
-  bool moves(uint32_t body) const { return velocity[2 * body].w > 0; }
-  double locks(uint32_t body) const { return has_tensors() ? inertia[2 * body + 1].z : 0; }
-  vec3 turned_by(uint32_t body, const vec3 &angular_impulse) const
-  {
-    const spatial_velocity m = load_velocity(velocity.data(), body);
-    return symmetric_times(load_inertia(&parameters, inertia.data(), body, m), angular_impulse);
-  }
-  vec3 free_part(uint32_t body, const vec3 &v) const { return without_locked_axes(v, to_uint(locks(body))); }
-
-  void write(Memory &memory) const
-  {
-    write_rows(memory, Buffer::constraint_normal_impulse, normal_impulse.data(), count);
-    if (rubs()) write_rows(memory, Buffer::constraint_friction_impulse, friction_impulse.data(), count);
-    write_rows(memory, Buffer::solver_velocity, velocity.data(), velocity.size());
-    if (bounces()) write_rows(memory, Buffer::constraint_restitution, restitution.data() + count, count, stride);
-  }
-
-  uint32_t count = 0, stride = 0;
-  Parameters parameters{};
-  std::vector<uint32_t> a, b;
-  std::vector<float4> normal, center, offset, normal_impulse, friction_impulse, velocity, inertia, delta, restitution;
-  std::vector<double> points, slop; /* slop, or the flag for a deep contact: slop_or_deep */
-};
-
-uint32_t points_of(const Rows &rows, uint32_t constraint)
-{
-  uint32_t points = 0;
-  for (uint32_t k = 0; k < 4; ++k) points += rows.of_point(constraint, k, POINT_MASS) > 0;
-  return points;
-}
 
 /* --- islands ------------------------------------------------------------------------------------- */
 
@@ -177,11 +38,13 @@ struct Islands {
     starts.reserve(most_constraints + 1);
     for (std::vector<uint32_t> *list : {&next, &members, &ordered}) list->reserve(most_constraints);
     seen.reserve(most_constraints);
+    points.reserve(most_constraints);
     outcomes.reserve(most_constraints);
   }
 
   size_t count() const { return starts.size() - 1; }
   size_t size(size_t k) const { return starts[k + 1] - starts[k]; }
+  bool is_small(size_t k) const { return points[k] <= most_island_points; }
   std::span<const uint32_t> constraints(size_t k) const { return {members.data() + starts[k], size(k)}; }
   std::span<uint32_t> order(size_t k) { return {ordered.data() + starts[k], size(k)}; }
   std::span<uint8_t> marks(size_t k) { return {seen.data() + starts[k], size(k)}; }
@@ -190,10 +53,11 @@ struct Islands {
   std::vector<uint32_t> starts, next;
   std::vector<uint32_t> members, ordered; /* in the order of the constraints; in that of elimination */
   std::vector<uint8_t> seen;
+  std::vector<uint32_t> points;  /* of each island */
   std::vector<Outcome> outcomes; /* of each island */
 };
 
-void unite_bodies(const Rows &rows, std::vector<uint32_t> &parent)
+void unite_bodies(const IslandRows &rows, std::vector<uint32_t> &parent)
 {
   parent.resize(rows.bodies());
   std::iota(parent.begin(), parent.end(), 0u);
@@ -205,7 +69,7 @@ void unite_bodies(const Rows &rows, std::vector<uint32_t> &parent)
 }
 
 /* The constraints of each island keep the order of the constraints; islands are ordered by their first constraint. */
-void find_islands(const Rows &rows, Islands &islands)
+void find_islands(const IslandRows &rows, Islands &islands)
 {
   islands.reserve(rows.stride);
   unite_bodies(rows, islands.parent);
@@ -226,12 +90,13 @@ void find_islands(const Rows &rows, Islands &islands)
   for (uint32_t i = 0; i < rows.count; ++i) islands.members[islands.next[islands.island_of[root(i)]]++] = i;
   islands.ordered.resize(rows.count);
   islands.seen.resize(rows.count);
-  islands.outcomes.assign(islands.count(), Outcome::left);
+  islands.points.assign(islands.count(), 0);
+  for (uint32_t i = 0; i < rows.count; ++i) islands.points[islands.island_of[root(i)]] += rows.points_of(i);
 }
 
 /* Writes the constraints by their distance from `start` over shared moving bodies, breadth first, and returns how many
  * it has reached. */
-size_t walk_from(const Rows &rows, std::span<const uint32_t> constraints, size_t start, std::span<uint32_t> order,
+size_t walk_from(const IslandRows &rows, std::span<const uint32_t> constraints, size_t start, std::span<uint32_t> order,
                  std::span<uint8_t> seen)
 {
   const auto touch = [&](uint32_t one, uint32_t other) {
@@ -254,7 +119,7 @@ size_t walk_from(const Rows &rows, std::span<const uint32_t> constraints, size_t
 
 /* Orders neighbours near each other, so that the matrix has a small bandwidth (Cuthill and McKee, 1969): a search from
  * the last constraint of a first search. */
-std::span<const uint32_t> in_narrow_order(const Rows &rows, Islands &islands, size_t k)
+std::span<const uint32_t> in_narrow_order(const IslandRows &rows, Islands &islands, size_t k)
 {
   const std::span<const uint32_t> constraints = islands.constraints(k);
   const std::span<uint32_t> order = islands.order(k);
@@ -303,7 +168,7 @@ struct IslandMemory {
 
 class Island {
 public:
-  Island(Rows &rows, std::span<const uint32_t> constraints, uint32_t pass, IslandMemory &memory)
+  Island(IslandRows &rows, std::span<const uint32_t> constraints, uint32_t pass, IslandMemory &memory)
       : rows_(rows), constraints_(constraints), pass_(pass), list_(memory.list), problem_(memory.problem),
         arena_(memory.arena)
   {
@@ -343,7 +208,7 @@ private:
   double speed_of(const Row &r) const;
   void push(uint32_t body, const vec3 &direction, const vec3 &turn, double impulse);
 
-  Rows &rows_;
+  IslandRows &rows_;
   std::span<const uint32_t> constraints_;
   uint32_t pass_;
   std::vector<Row> &list_;
@@ -497,27 +362,24 @@ void Island::note_highest()
     }
 }
 
-Outcome solve_one(Rows &rows, Islands &islands, size_t k, uint32_t pass, IslandMemory &memory)
+Outcome solve_one(IslandRows &rows, Islands &islands, size_t k, uint32_t pass, IslandMemory &memory)
 {
   const minicl::ExactFloatingPoint environment;
-  uint32_t points = 0;
-  for (uint32_t i : islands.constraints(k)) points += points_of(rows, i);
-  if (points > most_island_points) return Outcome::left;
+  if (!islands.is_small(k)) return Outcome::left;
   Island island(rows, in_narrow_order(rows, islands, k), pass, memory);
   if (!island.is_finite()) return Outcome::left;
   return island.solve() ? Outcome::solved : Outcome::stalled;
 }
 
-void write_counts(Memory &memory, const Islands &islands, uint32_t stalled_before)
+IslandRows::Outcomes count_outcomes(const Islands &islands, uint32_t stalled_before)
 {
-  uint32_t values[3] = {0, 0, stalled_before};
+  IslandRows::Outcomes values = {0, 0, stalled_before};
   for (size_t k = 0; k < islands.count(); ++k) {
     if (islands.outcomes[k] == Outcome::left) values[1] += static_cast<uint32_t>(islands.size(k));
     else ++values[0];
     if (islands.outcomes[k] == Outcome::stalled) ++values[2];
   }
-  static_assert(COUNT_DIRECT_LEFT == COUNT_DIRECT_ISLANDS + 1 && COUNT_DIRECT_STALLED == COUNT_DIRECT_ISLANDS + 2);
-  memory.upload(Buffer::counts, values, sizeof values, COUNT_DIRECT_ISLANDS * sizeof(uint32_t));
+  return values;
 }
 
 /* The memory that it keeps is for as many constraints as the buffers have room for. So a launch allocates only where
@@ -526,34 +388,57 @@ class SolveIslands : public CpuKernel {
 public:
   void run(const Launch &launch, Memory &memory) override
   {
-    Counts counts;
-    memory.download(Buffer::counts, counts.data(), sizeof counts);
-    if (counts[COUNT_CONSTRAINTS] == 0) return;
-    rows_.read(memory, counts);
-    find_islands(rows_, islands_);
-    make_room_for_tasks();
-    solve(launch.values.at(0));
-    if (std::any_of(islands_.outcomes.begin(), islands_.outcomes.end(),
-                    [](Outcome outcome) { return outcome != Outcome::left; }))
-      rows_.write(memory);
-    write_counts(memory, islands_, counts[COUNT_DIRECT_STALLED]);
+    try {
+      run_pass(launch.values.at(0), memory);
+    } catch (...) {
+      rows_.forget();
+      throw;
+    }
   }
 
 private:
+  void run_pass(uint32_t pass, Memory &memory);
+  void find_small_islands();
+  void improve(uint32_t pass, Memory &memory);
   void make_room_for_tasks();
   void solve(uint32_t pass);
 
-  Rows rows_;
+  IslandRows rows_;
   Islands islands_;
+  bool has_small_islands_ = false;
   std::vector<IslandMemory> memories_; /* one for each task */
 };
+
+void SolveIslands::run_pass(uint32_t pass, Memory &memory)
+{
+  if (rows_.read_graph(memory)) find_small_islands();
+  if (rows_.count == 0) return;
+  islands_.outcomes.assign(islands_.count(), Outcome::left);
+  if (has_small_islands_) improve(pass, memory);
+  rows_.write_outcomes(memory, count_outcomes(islands_, rows_.stalled()));
+}
+
+void SolveIslands::find_small_islands()
+{
+  find_islands(rows_, islands_);
+  has_small_islands_ = false;
+  for (size_t k = 0; k < islands_.count(); ++k) has_small_islands_ |= islands_.is_small(k);
+  make_room_for_tasks();
+}
+
+void SolveIslands::improve(uint32_t pass, Memory &memory)
+{
+  rows_.read_rest(memory);
+  solve(pass);
+  if (std::any_of(islands_.outcomes.begin(), islands_.outcomes.end(),
+                  [](Outcome outcome) { return outcome != Outcome::left; }))
+    rows_.write(memory);
+}
 
 /* Tasks allocate nothing, so what fails for want of memory fails here. */
 void SolveIslands::make_room_for_tasks()
 {
-  const size_t threads =
-      std::min(minicl::settle_threads(), static_cast<size_t>(tbb::this_task_arena::max_concurrency()));
-  memories_.resize(std::max(memories_.size(), std::min<size_t>(threads, rows_.stride)));
+  memories_.resize(std::max(memories_.size(), std::min<size_t>(parts_at_once(), rows_.stride)));
   for (IslandMemory &memory : memories_) memory.reserve(rows_.stride);
 }
 

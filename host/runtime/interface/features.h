@@ -31,4 +31,16 @@ constexpr FeatureRow feature_rows[] = {
 #undef FEATURE
 };
 
+/* Adds the features that others of these need. */
+constexpr Features with_needs(Features features)
+{
+#define FEATURE(name, what)
+#define FEATURE_NEEDS(feature, other) \
+  if ((features & FEATURE_##feature) != 0) features |= FEATURE_##other;
+#include "shared/features.def"
+#undef FEATURE_NEEDS
+#undef FEATURE
+  return features;
+}
+
 } // namespace tandem

@@ -54,18 +54,41 @@ Storage &host_storage()
   return storage;
 }
 
-/* The floats are read into the second half of the result and widened from there, so that nothing is allocated: the
+namespace {
+
+/* The second half of what so many doubles take. */
+char *second_half(double *to, size_t count) { return reinterpret_cast<char *>(to) + count * sizeof(float); }
+
+/* Floats that were read into the second half of the result are widened from there, so that nothing is allocated: the
  * i-th double ends where the i-th float does, or before. */
-void Storage::read_reals(void *handle, size_t first, double *to, size_t count)
+void widen(double *to, size_t count)
 {
-  const size_t bytes = count * sizeof(float);
-  char *const floats = reinterpret_cast<char *>(to) + bytes;
-  read(handle, first * sizeof(float), floats, bytes);
+  const char *const floats = second_half(to, count);
   for (size_t i = 0; i < count; ++i) {
     float value;
     std::memcpy(&value, floats + i * sizeof value, sizeof value);
     to[i] = value;
   }
+}
+
+} // namespace
+
+void Storage::read_planes(void *handle, size_t plane_bytes, void *to, size_t bytes, size_t planes)
+{
+  for (size_t plane = 0; plane < planes; ++plane)
+    read(handle, plane * plane_bytes, static_cast<char *>(to) + plane * bytes, bytes);
+}
+
+void Storage::read_reals(void *handle, size_t first, double *to, size_t count)
+{
+  read(handle, first * sizeof(float), second_half(to, count), count * sizeof(float));
+  widen(to, count);
+}
+
+void Storage::read_real_planes(void *handle, size_t plane_reals, double *to, size_t count, size_t planes)
+{
+  read_planes(handle, plane_reals * sizeof(float), second_half(to, planes * count), count * sizeof(float), planes);
+  widen(to, planes * count);
 }
 
 } // namespace tandem

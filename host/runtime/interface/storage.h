@@ -22,10 +22,14 @@ public:
   virtual void release(void *handle) noexcept = 0;
   virtual void write(void *handle, size_t offset, const void *from, size_t bytes) = 0;
   virtual void read(void *handle, size_t offset, void *to, size_t bytes) = 0; /* waits */
+  /* Reads so many bytes from the start of each plane, one behind the other; a device waits once. */
+  virtual void read_planes(void *handle, size_t plane_bytes, void *to, size_t bytes, size_t planes);
   /* Copies the first bytes from one buffer to another of the same elements; in a device without waiting. */
   virtual void copy(void *from, void *to, size_t bytes) = 0;
   /* Reads reals of a buffer of float4s or reals in the precision in which this storage keeps them. */
   virtual void read_reals(void *handle, size_t first, double *to, size_t count);
+  /* So many reals from the start of each plane, one behind the other. */
+  virtual void read_real_planes(void *handle, size_t plane_reals, double *to, size_t count, size_t planes);
   /* True if reals are doubles; only then may write_reals be called. */
   virtual bool keeps_doubles() const { return false; }
   virtual void write_reals(void *, size_t, const double *, size_t) {}

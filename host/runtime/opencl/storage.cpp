@@ -169,6 +169,18 @@ void DeviceStorage::read(void *handle, size_t offset, void *to, size_t bytes)
   if (code != CL_SUCCESS) fail(context_, "reading", bytes, code);
 }
 
+void DeviceStorage::read_planes(void *handle, size_t plane_bytes, void *to, size_t bytes, size_t planes)
+{
+  if (bytes == 0 || planes == 0) return;
+  const DeviceBuffer &buffer = *static_cast<DeviceBuffer *>(handle);
+  const size_t origin[3] = {0, 0, 0}, region[3] = {bytes, planes, 1};
+  const cl_int code = code_of(faults::Site::transfer, [&] {
+    return clEnqueueReadBufferRect(context_.queue(), buffer.memory, CL_TRUE, origin, origin, region, plane_bytes, 0,
+                                   bytes, 0, to, 0, nullptr, nullptr);
+  });
+  if (code != CL_SUCCESS) fail(context_, "reading", bytes * planes, code);
+}
+
 void DeviceStorage::copy(void *from, void *to, size_t bytes)
 {
   if (bytes == 0) return;

@@ -27,6 +27,7 @@ public:
   void release(void *handle) noexcept override;
   void write(void *handle, size_t offset, const void *from, size_t bytes) override;
   void read(void *handle, size_t offset, void *to, size_t bytes) override;
+  void read_planes(void *handle, size_t plane_bytes, void *to, size_t bytes, size_t planes) override;
   void copy(void *from, void *to, size_t bytes) override;
   void wait() override;
   /* Whether copies or fills were begun since the last wait. */

@@ -55,7 +55,7 @@ TEST_CASE("hulls that shapes share are counted once")
   std::vector<uint32_t> of_shapes;
   for (const Shape &shape : scene.shapes) of_shapes.push_back(shape.hull ? numbers.at(shape.hull.get()) : 0);
   CHECK(of_shapes == std::vector<uint32_t>{0, 1, 0, 1, 2});
-  const HullSizes sizes = hull_sizes(scene, 0);
+  const HullSizes sizes = hull_sizes(scene, {});
   CHECK(sizes.hulls == 3);
   CHECK(sizes.vertices == 30 + 8 + 5);
   CHECK(sizes.edges == sizes.vertices + sizes.faces - 3 * 2); /* Euler, three times */
@@ -67,11 +67,11 @@ TEST_CASE("the tables of hulls are closed surfaces that face outward")
   const Scene scene = hulls();
   World world(scene);
   const Tables t(world);
-  REQUIRE(t.headers.size() == 3 * 11);
+  REQUIRE(t.headers.size() == 3 * 12);
   uint32_t vertex = 0, face = 0, edge = 0, corner = 0;
   for (uint32_t h = 0; h < 3; ++h) {
     CAPTURE(h);
-    const uint32_t *header = &t.headers[11 * h];
+    const uint32_t *header = &t.headers[12 * h];
     REQUIRE((header[0] == vertex && header[2] == face && header[4] == edge && header[6] == corner));
     const uint32_t vertices = header[1], faces = header[3], edges = header[5], corners = header[7];
     REQUIRE(vertices + faces == edges + 2);
@@ -118,8 +118,21 @@ TEST_CASE("a scene without hulls has none of their vertices")
   Scene scene = empty_scene();
   add_body(scene, BodyType::dynamic, capsule_shape(0.5f, 1), {0, 0, 0});
   add_body(scene, BodyType::dynamic, sphere_shape(0.5f), {0, 3, 0});
-  CHECK(hull_sizes(scene, 0).hulls == 0);
+  CHECK(hull_sizes(scene, {}).hulls == 0);
   World world(scene);
   world.step();
   CHECK(world.memory().bytes(Buffer::hull_vertex) == 0);
+}
+
+TEST_CASE("a hull has the cube maps that something reads, and no others")
+{
+  Settings settings;
+  settings.support = GENERATE(Support::brute_force, Support::hill_climbing, Support::cube_map);
+  settings.narrowphase = GENERATE(Narrowphase::sat, Narrowphase::cube_map);
+  settings.support_cells = 4;
+  const Scene scene = hulls();
+  const uint64_t maps = (settings.support != Support::brute_force) + (settings.narrowphase == Narrowphase::cube_map);
+  World world(scene, settings);
+  const uint64_t links = world.memory().bytes(Buffer::hull_link) / sizeof(uint32_t);
+  CHECK(links == hull_sizes(scene, {}).links + 3 * maps * 6 * 4 * 4);
 }

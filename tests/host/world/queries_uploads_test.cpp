@@ -128,6 +128,23 @@ TEST_CASE("the second of two batches uploads its queries alone and rebuilds no h
   CHECK(launches_of(world, "compute_query_bounds") == 0);
 }
 
+/* Queries are written where they are read, so that they do not move either. */
+TEST_CASE("the second of two batches launches its own kernel alone, and no buffer moves for it")
+{
+  Settings settings;
+  settings.broadphase = GENERATE(Broadphase::grid, Broadphase::bvh, Broadphase::brute_force);
+  World world(resting_rows(200), settings, {"serial", {{"queries", "reference"}}});
+  run(world, 3);
+  const std::vector<Ray> rays = rays_from_above(300);
+  const uint64_t moved_by_steps = world.bytes_moved();
+  world.cast_rays(rays);
+  const uint64_t launches = world.launches(), moved = world.bytes_moved();
+  CHECK(moved > moved_by_steps); /* the bodies, once */
+  world.cast_rays(rays);
+  CHECK(world.launches() - launches == 1);
+  CHECK(world.bytes_moved() == moved);
+}
+
 TEST_CASE("batches after every kind of change answer as a world that was asked nothing before")
 {
   const bool sleeping = GENERATE(false, true);

@@ -142,16 +142,16 @@ inline std::shared_ptr<Hull> make_hull(const std::vector<Vector> &given)
     hull->rows.push_back({memory_real(p.x()), memory_real(p.y()), memory_real(p.z()), 0});
   for (const auto &edge : hull->edges) hull->edge_table.insert(hull->edge_table.end(), edge.begin(), edge.end());
   hull->headers = {
-      0, uint(n), 0,       uint(hull->faces.size()), 0, uint(hull->edges.size()), 0, uint(hull->corners.size()),
-      0, 0,       map_side};
+      0, uint(n),  0,       uint(hull->faces.size()), 0, uint(hull->edges.size()), 0, uint(hull->corners.size()), 0,
+      0, map_side, map_side};
   std::vector<std::vector<uint32_t>> faces;
   for (const Hull::Face &face : hull->faces) faces.push_back(face.corners);
   ::tandem::append_chunks(hull->chunks, hull->rows, 3);
   ::tandem::append_chunks(hull->chunks, hull->planes, 4);
   ::tandem::append_links(hull->links, uint(n), faces, hull->edge_table);
   hull->chunks.push_back(::tandem::middle_of(std::span(hull->rows)));
-  ::tandem::append_cube_maps(hull->links, std::span(hull->rows), std::span(hull->planes), hull->chunks.back(),
-                             map_side);
+  ::tandem::append_vertex_map(hull->links, std::span(hull->rows), map_side);
+  ::tandem::append_face_map(hull->links, std::span(hull->planes), hull->chunks.back(), map_side);
   return hull;
 }
 

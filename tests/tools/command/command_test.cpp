@@ -213,8 +213,10 @@ TEST_CASE("command: run writes what its contract says", "[command]")
                    "body_hash",
                    "launches",
                    "bytes_moved",
+                   "device_reads",
                    "placement"});
   CHECK(run["bytes_moved"] == 0);
+  CHECK(run["device_reads"] == 0);
   CHECK(run["placement"]["why"] == "as asked");
   check_keys(run["step_ms"], {"median", "min", "max"});
   CHECK(run["scene"] == tiny);
@@ -405,14 +407,26 @@ TEST_CASE("command: bench batching", "[command]")
   const Json bench = json_of("bench batching --n 64 --on serial");
   check_keys(bench, {"what", "backend", "scenes"});
   const Json &scene = bench["scenes"][0];
-  check_keys(scene, {"scene", "bodies", "pairs", "contacts", "batchers"});
+  check_keys(scene, {"scene", "bodies", "pairs", "contacts", "most_of_body", "longest_chain", "batchers"});
   REQUIRE(scene["batchers"].size() == 6); /* colouring twice */
+  /* Contacts of one body are a chain, and along a chain colours grow. */
+  CHECK(scene["batchers"][1]["name"] == "coloring, kept");
+  CHECK(scene["most_of_body"] <= scene["longest_chain"]);
+  CHECK(scene["longest_chain"] <= scene["batchers"][1]["batches"]);
   for (const Json &batcher : scene["batchers"]) {
     uint32_t sum = batcher["tail"];
     for (const Json &size : batcher["sizes"]) sum += size.get<uint32_t>();
     CHECK(sum == scene["contacts"].get<uint32_t>());
     CHECK(batcher["right"] == true);
   }
+  /* Two stacks of three boxes: each box stands on another or on the ground. */
+  const Json named = json_of("bench batching --scene box-stack:n=6,height=3,spheres:n=2 --steps 5 --on serial");
+  REQUIRE(named["scenes"].size() == 2);
+  CHECK(named["scenes"][0]["scene"] == "box-stack:n=6,height=3");
+  CHECK(named["scenes"][0]["steps"] == 5);
+  CHECK(named["scenes"][0]["contacts"] == 6);
+  CHECK(named["scenes"][0]["most_of_body"] == 2);
+  check_refused("bench batching --steps 5", "--steps");
 }
 
 TEST_CASE("command: bench broadphase", "[command]")
@@ -475,6 +489,7 @@ TEST_CASE("command: bench sizes beside another run, and what it refuses", "[comm
   CHECK(contents(scratch.file("d.svg")).find("tandem, ") == std::string::npos);
   check_refused("bench sizes --n 7", "--n");
   check_refused("bench sizes --n 0", "--n");
+  check_refused("bench sizes --n 0 --on serial --beside " + other, "--on");
   check_refused("bench sizes --n 0 --beside " + other + " --json -", "--n");
   check_refused("bench sizes --beside /nonexistent/a.json", "/nonexistent/a.json");
   check_refused(line + " --json " + other, "other.json");

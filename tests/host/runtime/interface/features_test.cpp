@@ -21,6 +21,8 @@ static_assert(feature_of_index(FEATURE_INDEX_FORTY_FIRST) == 0x10000000000u);
 static_assert(HAS_BIT(feature_of_index(FEATURE_INDEX_FORTY_FIRST), FEATURE_INDEX_FORTY_FIRST));
 static_assert(!HAS_BIT(feature_of_index(FEATURE_INDEX_FORTY_FIRST), FEATURE_INDEX_NINTH));
 static_assert(!HAS_BIT(feature_of_index(FEATURE_INDEX_NINTH), FEATURE_INDEX_FORTY_FIRST));
+static_assert(with_needs(FEATURE_HULL | FEATURE_DAMPING) == (FEATURE_HULL | FEATURE_DAMPING | FEATURE_CONVEX));
+static_assert(with_needs(FEATURE_DAMPING) == FEATURE_DAMPING);
 
 bool has_forty_first(const Parameters *parameters) { return HAS_FEATURE(parameters, FORTY_FIRST); }
 bool has_sixty_fourth(const Parameters *parameters) { return HAS_FEATURE(parameters, SIXTY_FOURTH); }
