@@ -130,6 +130,7 @@ BatchScene batch_scene(const std::string &text, const std::string &backend, bool
                        uint32_t wanted)
 {
   World world(load_scene(text), Settings{}, Placement{backend, {}, allow_inexact});
+  world.set_observer([](const Launch &) {}); /* what the kernels read is kept for them to run again */
   BatchScene result{text, 0, 0, 0, 0, {}, {}};
   Progress progress("simulating " + text, most_steps);
   std::vector<uint32_t> counts;
