@@ -6,6 +6,9 @@
 #include <chrono>
 #include <cstring>
 #include <new>
+#include <numeric>
+#include <stdexcept>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -36,7 +39,8 @@ Memory::~Memory()
  * host's copy is always first. */
 void Memory::release(Entry &entry) noexcept
 {
-  for (auto copy = entry.copies.rbegin(); copy != entry.copies.rend(); ++copy) copy->storage->release(copy->handle);
+  for (auto copy = entry.copies.rbegin(); copy != entry.copies.rend(); ++copy)
+    if (!copy->lent) copy->storage->release(copy->handle);
   entry.copies.clear();
   entry.forgotten = false;
 }
@@ -45,6 +49,7 @@ void Memory::resize(Buffer buffer, size_t bytes)
 {
   Entry &entry = entries_[index_of(buffer)];
   if (bytes == entry.bytes) return;
+  separate(buffer);
   release(entry);
   entry.bytes = bytes;
   note_write(entry);
@@ -52,6 +57,7 @@ void Memory::resize(Buffer buffer, size_t bytes)
 
 void Memory::assign(Buffer buffer, const void *from, size_t bytes)
 {
+  separate(buffer);
   Entry &entry = entries_[index_of(buffer)];
   Entry other{entry.element, bytes, {}};
   if (bytes > 0) {
@@ -81,6 +87,7 @@ size_t Memory::total_bytes() const
 {
   size_t total = 0;
   for (const Entry &entry : entries_) total += entry.bytes;
+  for (const Tenancy &tenancy : tenancies_) total -= bytes(tenancy.tenant);
   return total;
 }
 
@@ -88,8 +95,7 @@ void *Memory::allocate(const Entry &entry, size_t bytes, Storage &storage, void 
 {
   const auto refusal = [&](const std::string &why) {
     return fmt::format("out of memory: buffer {} needs {} bytes of {}, all buffers together {}{}",
-                       row_of(buffer_at(static_cast<size_t>(&entry - entries_.data()))).name, bytes, storage.what(),
-                       total_bytes(), why);
+                       row_of(buffer_at(index_in(entry))).name, bytes, storage.what(), total_bytes(), why);
   };
   try {
     return storage.allocate(entry.element, bytes, host_memory);
@@ -106,6 +112,7 @@ Memory::Copy &Memory::copy_in(Entry &entry, Storage &storage)
     if (copy.storage == &storage) return copy;
   entry.copies.reserve(entry.copies.size() +
                        2); /* this copy and the host's; a push_back that failed later would leak a handle */
+  if (Copy *const lent = lend(entry, storage)) return *lent;
   if (&storage != &host_storage() && storage.shares_host_memory()) {
     void *host = copy_in(entry, host_storage()).handle;
     entry.copies.push_back({&storage, allocate(entry, entry.bytes, storage, host), false});
@@ -206,6 +213,10 @@ void *Memory::valid_alone(const Entry &entry, const Storage &storage, Access acc
 void *Memory::acquire(Buffer buffer, Storage &storage, Access access, UsedParts *used)
 {
   Entry &entry = entries_[index_of(buffer)];
+  if (!is_held(buffer)) {
+    if (access == Access::in) return copy_in(entry, storage).handle;
+    take(buffer, storage);
+  }
   const bool forgotten = std::exchange(entry.forgotten, entry.forgotten && access == Access::in);
   if (access != Access::in) note_write(entry);
   if (void *const handle = valid_alone(entry, storage, access)) return handle; /* nearly always */
@@ -216,6 +227,93 @@ void *Memory::acquire(Buffer buffer, Storage &storage, Access access, UsedParts 
   wait_for_readers(entry, storage);
   for (Copy &other : entry.copies) other.valid = &other == &copy;
   return copy.handle;
+}
+
+/* --- memory that several buffers share ---------------------------------------------------------------------------- */
+
+void Memory::share(std::vector<Tenancy> tenancies)
+{
+  for (const Tenancy &tenancy : tenancies_) release(entries_[index_of(tenancy.tenant)]);
+  tenancies_ = std::move(tenancies);
+  landlord_.resize(tenancies_.empty() ? 0 : entries_.size());
+  std::iota(landlord_.begin(), landlord_.end(), size_t{0});
+  holder_ = landlord_;
+  for (const Tenancy &tenancy : tenancies_) {
+    release(entries_[index_of(tenancy.tenant)]);
+    landlord_[index_of(tenancy.tenant)] = index_of(tenancy.landlord);
+  }
+}
+
+void Memory::separate(Buffer buffer)
+{
+  const size_t index = index_of(buffer);
+  if (landlord_.empty()) return;
+  evict(index);
+  if (landlord_[index] != index) {
+    release(entries_[index]);
+    if (!is_held(buffer_at(landlord_[index]))) holder_[landlord_[index]] = landlord_[index];
+  }
+  const auto leaves = [&](const Tenancy &tenancy) {
+    const bool does = tenancy.tenant == buffer || tenancy.landlord == buffer;
+    if (does) landlord_[index_of(tenancy.tenant)] = index_of(tenancy.tenant);
+    return does;
+  };
+  tenancies_.erase(std::remove_if(tenancies_.begin(), tenancies_.end(), leaves), tenancies_.end());
+}
+
+void Memory::exchange(Buffer one, Buffer other) noexcept
+{
+  std::swap(entries_[index_of(one)], entries_[index_of(other)]);
+  if (landlord_.empty()) return;
+  evict(index_of(one));
+  evict(index_of(other));
+}
+
+/* Takes its memory back from all tenants. */
+void Memory::evict(size_t landlord) noexcept
+{
+  if (landlord_[landlord] != landlord) return;
+  holder_[landlord] = landlord;
+  for (const Tenancy &tenancy : tenancies_)
+    if (index_of(tenancy.landlord) == landlord) release(entries_[index_of(tenancy.tenant)]);
+}
+
+/* The copy of a tenant in this storage, or null for a buffer with memory of its own. */
+Memory::Copy *Memory::lend(Entry &entry, Storage &storage)
+{
+  const size_t index = index_in(entry);
+  if (landlord_.empty() || landlord_[index] == index || storage.keeps_doubles()) return nullptr;
+  void *const handle = copy_in(entries_[landlord_[index]], storage).handle;
+  entry.copies.push_back({&storage, handle, entry.copies.empty(), true});
+  return &entry.copies.back();
+}
+
+/* A device that works in the host's memory may still read what that held before. */
+void Memory::take(Buffer buffer, Storage &storage)
+{
+  Entry &entry = entries_[index_of(buffer)];
+  copy_in(entry, storage); /* before anything changes, because there may be no memory */
+  const size_t landlord = landlord_[index_of(buffer)];
+  for (const Copy &copy : entries_[landlord].copies)
+    if (copy.storage != &storage && copy.storage->shares_host_memory()) copy.storage->wait();
+  holder_[landlord] = index_of(buffer);
+  for (Copy &copy : entry.copies) copy.valid = copy.storage == &storage;
+  entry.forgotten = false;
+  if (poisons_) poison(entry, storage);
+}
+
+void Memory::poison(Entry &entry, Storage &storage)
+{
+  constexpr unsigned char byte = 0xab; /* as a float -1e-12, and an index beyond every buffer */
+  const std::vector<unsigned char> bytes(entry.bytes, byte);
+  storage.write(copy_in(entry, storage).handle, 0, bytes.data(), bytes.size());
+}
+
+void Memory::check_held(Buffer buffer) const
+{
+  if (!is_held(buffer))
+    throw std::logic_error(std::string("buffer ") + row_of(buffer).name + " is read after " +
+                           row_of(buffer_at(holder_of(index_of(buffer)))).name + " has taken its memory");
 }
 
 /* A valid copy in memory of a device's own, or null. */
@@ -235,6 +333,7 @@ void Memory::upload(Buffer buffer, const void *from, size_t bytes, size_t offset
 {
   if (bytes == 0) return;
   uploaded_bytes_ += bytes;
+  check_held(buffer);
   Entry &entry = entries_[index_of(buffer)];
   entry.forgotten = false;
   note_write(entry);
@@ -284,6 +383,7 @@ void Memory::fit(Buffer buffer, size_t bytes)
   Entry &entry = entries_[index_of(buffer)];
   const size_t kept = std::min(bytes, entry.bytes);
   if (bytes == entry.bytes) return;
+  separate(buffer);
   Entry fitted{entry.element, bytes, {}};
   if (!entry.copies.empty() && kept > 0) {
     const Copy *device = valid_on_device(entry);
@@ -307,6 +407,7 @@ void Memory::fit(Buffer buffer, size_t bytes)
 void Memory::download(Buffer buffer, void *to, size_t bytes, size_t offset)
 {
   if (bytes == 0) return;
+  check_held(buffer);
   Entry &entry = entries_[index_of(buffer)];
   if (entry.copies.empty()) copy_in(entry, host_storage()); /* zeros */
   for (Copy &copy : entry.copies)
@@ -335,6 +436,7 @@ void Memory::keep(Buffer buffer, size_t bytes, KeptBytes &kept)
   kept.bytes_ = 0;
   Entry &entry = entries_[index_of(buffer)];
   if (bytes == 0 || entry.bytes == 0) return;
+  check_held(buffer);
   copy_in(entry, host_storage());
   const Copy *source = nullptr;
   for (const Copy &copy : entry.copies)
@@ -347,6 +449,7 @@ void Memory::keep(Buffer buffer, size_t bytes, KeptBytes &kept)
 void Memory::put_back(Buffer buffer, const KeptBytes &kept)
 {
   if (kept.bytes_ == 0) return;
+  if (!is_held(buffer)) take(buffer, *kept.storage_);
   Entry &entry = entries_[index_of(buffer)];
   Copy &target = copy_in(entry, *kept.storage_);
   wait_for_readers(entry, *kept.storage_);
@@ -376,6 +479,7 @@ std::vector<double> Memory::read_reals(Buffer buffer, size_t count, size_t first
 void Memory::read_reals(Buffer buffer, double *to, size_t count, size_t first)
 {
   if (count == 0) return;
+  check_held(buffer);
   Copy &copy = most_precise(entries_[index_of(buffer)]);
   note_read(*copy.storage);
   copy.storage->read_reals(copy.handle, first, to, count);
@@ -384,6 +488,7 @@ void Memory::read_reals(Buffer buffer, double *to, size_t count, size_t first)
 void Memory::read_real_planes(Buffer buffer, double *to, size_t count, size_t planes, size_t plane_reals)
 {
   if (count == 0 || planes == 0) return;
+  check_held(buffer);
   Copy &copy = most_precise(entries_[index_of(buffer)]);
   note_read(*copy.storage);
   copy.storage->read_real_planes(copy.handle, plane_reals, to, count, planes);
@@ -392,6 +497,7 @@ void Memory::read_real_planes(Buffer buffer, double *to, size_t count, size_t pl
 void Memory::write_reals(Buffer buffer, const double *from, size_t count, size_t first)
 {
   if (count == 0) return;
+  check_held(buffer);
   Entry &entry = entries_[index_of(buffer)];
   Copy &wide = most_precise(entry);
   if (!wide.storage->keeps_doubles()) {

@@ -67,6 +67,11 @@ struct Moves {
   uint64_t reads = 0; /* by the host from a storage that is not its own, of whole buffers or parts: each one waits */
 };
 
+/* A buffer that has no memory of its own and lies in that of another, which is at least as large. */
+struct Tenancy {
+  Buffer tenant, landlord;
+};
+
 /* Every storage given to acquire must outlive the memory. */
 class TANDEM_API Memory {
 public:
@@ -90,14 +95,26 @@ public:
   void reserve(Buffer buffer, Storage &storage);
   /* Ensures that later uploads to the buffer do not run out of memory. */
   void prepare_upload(Buffer buffer);
-  /* Exchanges two buffers of the same type. */
-  void exchange(Buffer one, Buffer other) noexcept { std::swap(entries_[index_of(one)], entries_[index_of(other)]); }
+  /* Exchanges two buffers of the same type. What tenants of theirs held is lost. */
+  void exchange(Buffer one, Buffer other) noexcept;
+  /* Lets buffers lie in the memory of others, instead of those that did so far; no landlord is a tenant. A landlord and
+   * its tenants hold contents in turn: who is written takes the memory, and what the others held is lost. Where reals
+   * are doubles, each has memory of its own all the same, because a tenant may need more bytes there. */
+  void share(std::vector<Tenancy> tenancies);
+  const std::vector<Tenancy> &shared() const { return tenancies_; }
+  /* Gives a buffer memory of its own, and each of its tenants. */
+  void separate(Buffer buffer);
+  /* Whether the buffer has what was last written to it. Another read of one that has not is a mistake of the program;
+   * a launch may read it that runs over no items. */
+  bool is_held(Buffer buffer) const { return holder_of(index_of(buffer)) == index_of(buffer); }
+  /* For tests: who takes shared memory finds it full of numbers that show in the results of whoever reads them. */
+  void poison_shared_memory() { poisons_ = true; }
   /* 0 for a buffer of a module that was added later. */
   size_t bytes(Buffer buffer) const
   {
     return index_of(buffer) < entries_.size() ? entries_[index_of(buffer)].bytes : 0;
   }
-  size_t total_bytes() const;
+  size_t total_bytes() const; /* shared memory counts once */
   /* What upload() and assign() were given so far, so that a test can hold a call to uploading no more than it must. */
   uint64_t uploaded_bytes() const { return uploaded_bytes_; }
   bool holds(Buffer buffer, const Storage &storage) const; /* whether the storage has a copy of it */
@@ -143,6 +160,7 @@ private:
     Storage *storage;
     void *handle;
     bool valid;
+    bool lent = false; /* the handle is a landlord's */
   };
   struct Entry {
     Element element;
@@ -164,8 +182,19 @@ private:
   void move_from_host(const Copy &copy, const void *host, size_t bytes, const UsedPart &part);
   void wait_for_readers(Entry &entry, Storage &writer);
   void release(Entry &entry) noexcept;
+  void evict(size_t landlord) noexcept;
+  Copy *lend(Entry &entry, Storage &storage);
+  void take(Buffer buffer, Storage &storage);
+  void poison(Entry &entry, Storage &storage);
+  void check_held(Buffer buffer) const;
+  size_t index_in(const Entry &entry) const { return static_cast<size_t>(&entry - entries_.data()); }
+  size_t holder_of(size_t index) const { return holder_.empty() ? index : holder_[landlord_[index]]; }
 
   std::vector<Entry> entries_; /* one for each buffer that existed when the memory was made */
+  std::vector<Tenancy> tenancies_;
+  /* By the buffer's number, empty where nothing is shared: its landlord, or itself; and who holds its memory. */
+  std::vector<size_t> landlord_, holder_;
+  bool poisons_ = false;
   std::vector<float> rounded_; /* by write_reals; kept, so that kernels of the host write without allocating */
   uint64_t uploaded_bytes_ = 0;
   uint64_t last_version_ = first_version();

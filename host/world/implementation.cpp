@@ -74,6 +74,7 @@ World::Implementation::Implementation(Beginning beginning, const Placement &plac
   validate(placement);
   place(backends.wanted());
   if (automatic) automatic->look_for_device(backends, buffers.needs().kernels);
+  buffers.set_sharing(settings.extensions.empty());
   buffers.allocate(sizes());
   upload_scene();
   guess_counts();
@@ -129,14 +130,23 @@ void World::Implementation::record_kernels()
   all.colors = std::max(plan.colors, COLOR_LIMIT);
   all.substeps.starts = all.substeps.automatic;
   all.rounds = BATCH_ROUNDS * COLOR_LIMIT; /* the most rounds after which a batcher launches another kernel */
+  all.known[COUNT_PAIRS] = all.known[COUNT_CONSTRAINTS] = most_pairs; /* many pairs, which touch */
   Recorder recorder;
   all.drowsy = all.sleepers = all.other_sleepers = settings.sleeping;
   launch_step(recorder, all, settings_in_use);
+  recorder.end_step();
   note_shapes(recorder);
   if (settings.sleeping) note_sleep(recorder);
   if (is_batch()) note_batch(recorder);
   for (const Extension &extension : settings.extensions) note_rows(recorder, *extension.module);
   buffers.take_needs(std::move(recorder));
+}
+
+/* Who looks at single launches may look at any buffer, and modules may read what they like. */
+void World::Implementation::set_observer(World::Observer observer)
+{
+  buffers.set_sharing(!observer && settings.extensions.empty());
+  launcher.set_observer(std::move(observer));
 }
 
 void World::Implementation::place(const Placement &placement)

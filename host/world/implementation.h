@@ -81,6 +81,7 @@ struct World::Implementation {
     return settings.specialise ? scene_features | forced_features : all_features() | (scene_features & FEATURE_WORLDS);
   }
   void record_kernels();
+  void set_observer(World::Observer observer);
   void place(const Placement &placement);
   void place_as_asked(const Placement &placement); /* by a user: it may be automatic */
   void place_as_chosen();
@@ -342,8 +343,9 @@ struct World::Implementation {
   Statistics statistics;
   /* The substeps that the parameters on the device have, and those of the cache that they know. */
   std::pair<uint32_t, uint32_t> told_substeps;
-  uint32_t cached_pairs = 0;  /* in the contact cache, as cached_start says */
-  uint32_t awake_at_last = 0; /* bodies, in the last step */
+  std::optional<uint64_t> first_outgrown; /* the first step that found more pairs than there was room for */
+  uint32_t cached_pairs = 0;              /* in the contact cache, as cached_start says */
+  uint32_t awake_at_last = 0;             /* bodies, in the last step */
   StateRing ring;
   std::unique_ptr<CallLog> log; /* of the recording, if one is made */
 };

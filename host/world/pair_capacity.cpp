@@ -19,6 +19,13 @@ constexpr uint32_t most_candidates_per_pair = 4;
 
 constexpr uint32_t least_pairs = 1024;
 
+/* A world whose number of pairs hardly changes outgrows its first room once, and needs hardly more than it found then.
+ * One that piles up outgrows its room again and again: a sixteenth more each time would run twice as many steps again
+ * as an eighth does. */
+constexpr uint64_t spare_share_at_first = 64, spare_share = 8;
+
+uint64_t more_by_share(uint64_t needed, uint64_t share) { return needed + needed / share; }
+
 } // namespace
 
 uint32_t first_capacity(const Scene &scene, const Settings &settings)
@@ -26,7 +33,7 @@ uint32_t first_capacity(const Scene &scene, const Settings &settings)
   return static_cast<uint32_t>(std::min<uint64_t>(2 * uint64_t{scene.bodies.size()} + least_pairs, settings.max_pairs));
 }
 
-uint64_t room_for(uint64_t needed) { return needed + needed / 8; }
+uint64_t room_for(uint64_t needed) { return more_by_share(needed, spare_share); }
 
 /* If candidates did not fit, the number of pairs among them is unknown. */
 bool World::Implementation::candidates_overflow() const { return (plan.known[COUNT_STATUS] & STATUS_CANDIDATES) != 0; }
@@ -50,11 +57,13 @@ void World::Implementation::grow_pairs(bool &may_forget)
         fmt::format("room for {}{} pairs is needed, and {} are the most (--max-pairs, Settings::max_pairs)",
                     needed == UINT32_MAX || candidates_overflow() ? "at least " : "", needed, settings.max_pairs));
   ++statistics.overflow;
+  if (!first_outgrown) first_outgrown = statistics.steps;
+  const uint64_t share = *first_outgrown == statistics.steps ? spare_share_at_first : spare_share;
   PairCapacity wanted = capacity();
   if (plan.known[COUNT_STATUS] & STATUS_PAIRS)
-    wanted.pairs = static_cast<uint32_t>(std::min<uint64_t>(room_for(needed), settings.max_pairs));
+    wanted.pairs = static_cast<uint32_t>(std::min<uint64_t>(more_by_share(needed, share), settings.max_pairs));
   if (candidates_overflow())
-    wanted.candidates = static_cast<uint32_t>(std::min<uint64_t>(room_for(candidates), UINT32_MAX));
+    wanted.candidates = static_cast<uint32_t>(std::min<uint64_t>(more_by_share(candidates, share), UINT32_MAX));
   enlarge(wanted);
   guess_counts();
 }
@@ -116,8 +125,8 @@ void World::Implementation::shrink_to_fit()
     return static_cast<uint32_t>(std::min<uint64_t>(wanted, most));
   };
   forget_contacts();
-  enlarge({at_most(room_for(pairs) + least_pairs, plan.capacity_pairs),
-           at_most(room_for(candidates) + least_pairs, plan.capacity_candidates)});
+  const auto enough = [](uint64_t needed) { return more_by_share(needed, spare_share_at_first) + least_pairs; };
+  enlarge({at_most(enough(pairs), plan.capacity_pairs), at_most(enough(candidates), plan.capacity_candidates)});
 }
 
 /* The lists of the last step lie in buffers that are laid out anew. This comes before, because a layout that fails half

@@ -113,7 +113,7 @@ std::unique_ptr<World::Implementation> World::Implementation::made_of(SnapshotCo
   world->cached_pairs = contents.pairs;
   if (old && old->ring.size() > 0)
     world->keep_states(static_cast<uint32_t>(old->ring.size()), old->ring.keeps_after_steps());
-  if (old) world->launcher.set_observer(old->launcher.observer());
+  if (old) world->set_observer(old->launcher.observer());
   return world;
 }
 

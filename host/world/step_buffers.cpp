@@ -23,7 +23,8 @@ void StepBuffers::take_needs(Recorder recorder)
     const bool needed = touched[index_of(buffer.now)] || touched[index_of(buffer.previous)];
     touched[index_of(buffer.now)] = touched[index_of(buffer.previous)] = needed;
   }
-  needs_ = {std::move(recorder.kernels), std::move(recorder.touched), std::move(recorder.uses)};
+  needs_ = {std::move(recorder.kernels), std::move(recorder.touched), std::move(recorder.uses),
+            StepSpans{std::move(recorder.spans), std::move(recorder.between_steps), recorder.first_of_commit}};
 }
 
 void StepBuffers::give_back_needs(Needs before)
@@ -43,6 +44,7 @@ void StepBuffers::allocate(const Sizes &sizes)
 {
   for (size_t i = 0; i < needs_.touched.size(); ++i)
     if (needs_.touched[i] || queried_[i]) check_size(buffer_at(i), sizes);
+  memory_.share({});
   for (size_t i = 0; i < needs_.touched.size(); ++i) {
     const Buffer buffer = buffer_at(i);
     const Lifetime lifetime = row_of(buffer).lifetime;
@@ -53,6 +55,7 @@ void StepBuffers::allocate(const Sizes &sizes)
   for (const CarriedBuffer &buffer : carried_) memory_.resize(buffer.previous, wanted_bytes(buffer.previous, sizes));
   for (const CarriedBuffer &buffer : carried_)
     if (const size_t bytes = wanted_bytes(buffer.now, sizes)) memory_.fit(buffer.now, bytes);
+  if (shares_) memory_.share(tenancies_of(needs_.spans, memory_, queried_));
 }
 
 void StepBuffers::make_ready(const Sizes &sizes)
@@ -61,10 +64,16 @@ void StepBuffers::make_ready(const Sizes &sizes)
   allocate(sizes);
   for (const auto &[kernel, buffer] : needs_.uses) memory_.reserve(buffer, backends_.of(kernel).storage());
   for (const CarriedBuffer &buffer : carried_)
-    for (const auto &[text, backend] : backends_.all())
-      if (memory_.holds(buffer.now, backend->storage())) memory_.reserve(buffer.previous, backend->storage());
+    for (const auto &[text, backend] : backends_.all()) reserve_both_sides(buffer, backend->storage());
   for (const auto &[text, backend] : backends_.all()) settle(*backend);
   ready_ = true;
+}
+
+/* The sides change places in a step, and tenants may have brought one of them here. */
+void StepBuffers::reserve_both_sides(const CarriedBuffer &buffer, Storage &storage)
+{
+  if (memory_.holds(buffer.now, storage)) memory_.reserve(buffer.previous, storage);
+  if (memory_.holds(buffer.previous, storage)) memory_.reserve(buffer.now, storage);
 }
 
 /* The scratch of modules may hold what the user wrote between steps, and that of queries what is told once. */
@@ -91,6 +100,7 @@ void StepBuffers::settle(Backend &backend)
 void StepBuffers::ensure_capacity(Buffer buffer, const Sizes &sizes)
 {
   queried_[index_of(buffer)] = true;
+  memory_.separate(buffer);
   if (!needs_.touched[index_of(buffer)]) memory_.resize(buffer, bytes_of(buffer, sizes));
 }
 

@@ -1,7 +1,8 @@
 /* step_buffers.h - the memory for a world's buffers: which of them exist, how large they are, and on which backends.
  *
  * A dry run of the step records which kernels it launches and which buffers they touch; the others take no memory.
- * Memory is allocated before a step begins, so that a step in progress does not run out of it.
+ * Memory is allocated before a step begins, so that a step in progress does not run out of it. Buffers whose contents
+ * matter at different times of a step lie in the same memory (host/world/shared_memory.h).
  */
 #pragma once
 
@@ -14,6 +15,7 @@
 #include "host/runtime/recorder.h"
 #include "host/world/carried.h"
 #include "host/world/placed_backends.h"
+#include "host/world/shared_memory.h"
 
 namespace tandem {
 
@@ -24,6 +26,7 @@ public:
     std::vector<Kernel> kernels;
     std::vector<bool> touched;                /* by the buffer's number */
     std::set<std::pair<Kernel, Buffer>> uses; /* the same, by kernel */
+    StepSpans spans;
   };
 
   StepBuffers(Memory &memory, PlacedBackends &backends) : memory_(memory), backends_(backends) {}
@@ -38,6 +41,11 @@ public:
   /* Allocates each buffer on the backends whose kernels use it; does nothing unless something changed. */
   void make_ready(const Sizes &sizes);
   void changed() { ready_ = false; }
+  /* Whether buffers share memory. Where they do not, all of them hold what they were last given. */
+  void set_sharing(bool on)
+  {
+    if (std::exchange(shares_, on) != on) changed();
+  }
   /* What a step has left in scratch need not follow the kernels that write it anew. */
   void forget_scratch();
   /* Allocates a buffer for queries between steps, which the step itself may not have. */
@@ -49,13 +57,14 @@ public:
 private:
   size_t wanted_bytes(Buffer buffer, const Sizes &sizes) const;
   void settle(Backend &backend);
+  void reserve_both_sides(const CarriedBuffer &buffer, Storage &storage);
 
   Memory &memory_;
   PlacedBackends &backends_;
   std::vector<CarriedBuffer> carried_ = carried_buffers();
   Needs needs_;
   std::vector<bool> queried_ = std::vector<bool>(all_buffers()); /* used by the structure that queries traverse */
-  bool ready_ = false;
+  bool ready_ = false, shares_ = true;
 };
 
 /* A module's buffer whose size is that of the last write; the pipeline's buffers of capacity NOTHING are sized by each

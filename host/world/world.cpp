@@ -88,7 +88,7 @@ uint32_t World::scene_body(uint32_t buffer_index) const
   const std::lock_guard guard(implementation_->reading);
   return implementation_->special.order.at(buffer_index);
 }
-void World::set_observer(Observer observer) { implementation_->launcher.set_observer(std::move(observer)); }
+void World::set_observer(Observer observer) { implementation_->set_observer(std::move(observer)); }
 
 std::vector<std::byte> World::save()
 {
@@ -181,7 +181,13 @@ void World::read_bytes(Buffer buffer, void *to, size_t bytes)
   if (bytes > buffer_bytes(buffer))
     throw InputError(
         fmt::format("read: buffer '{}' has {} bytes here, not {}", row_of(buffer).name, buffer_bytes(buffer), bytes));
-  answer_in_turn(*implementation_, "a buffer", [&] { implementation_->memory.download(buffer, to, bytes); });
+  answer_in_turn(*implementation_, "a buffer", [&] {
+    if (!implementation_->memory.is_held(buffer))
+      throw InputError(fmt::format("read: buffer '{}' has lost its contents to another buffer of the step, which "
+                                   "shares its memory; an observer (World::set_observer) keeps them apart",
+                                   row_of(buffer).name));
+    implementation_->memory.download(buffer, to, bytes);
+  });
 }
 
 void World::set_gravity(const Vec3 &gravity)

@@ -44,6 +44,7 @@ void require_same_states(const Scene &scene, const Settings &settings, uint64_t 
   CAPTURE(scene.name, settings.broadphase, settings.solver, settings.batching);
   World still(scene, settings, {"serial", {}});
   const std::unique_ptr<World> moving = separate_world(scene, settings);
+  moving->memory().poison_shared_memory();
   Random random(7);
   for (uint64_t step = 0; step < steps; ++step) {
     moving->place(random_placement(*moving, random));

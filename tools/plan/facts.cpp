@@ -5,6 +5,8 @@
 
 #include "host/runtime/interface/backend.h"
 #include "host/runtime/memory.h"
+#include "shared/counts.h"
+#include "shared/platform.h"
 #include "tools/plan/plan.h"
 
 namespace tandem {
@@ -50,6 +52,24 @@ bool touches(Kernel kernel, Buffer buffer, bool writes)
   return false;
 }
 
+uint64_t own_bytes(World &world, Buffer buffer)
+{
+  return landlord_of(world, buffer) ? 0 : world.memory().bytes(buffer);
+}
+
+/* Sorts have room for the pairs where those are more than twice the bodies, as in any world that is full. */
+bool grows_with_pairs(Buffer buffer)
+{
+  switch (row_of(buffer).capacity) {
+  case Capacity::PAIRS:
+  case Capacity::PAIRS_PLUS_ONE:
+  case Capacity::EVENTS:
+  case Capacity::SORTABLE:
+  case Capacity::CANDIDATE_PAIRS: return true;
+  default: return false;
+  }
+}
+
 } // namespace
 
 Plan::Plan(World &chosen, World &everything)
@@ -70,6 +90,23 @@ std::string Plan::library_option() const
   return fmt::format("-DTANDEM_FEATURES=\"{}\"", names);
 }
 
+std::optional<Buffer> landlord_of(World &world, Buffer buffer)
+{
+  for (const Tenancy &tenancy : world.memory().shared())
+    if (tenancy.tenant == buffer) return tenancy.landlord;
+  return {};
+}
+
+BytesEach bytes_each(World &world)
+{
+  BytesEach each{world.memory().read<uint32_t>(Buffer::counts, 1, CAPACITY_PAIRS).front()};
+  for (size_t b = 0; b < buffer_count; ++b)
+    (grows_with_pairs(buffer_at(b)) ? each.pair : each.body) += static_cast<double>(own_bytes(world, buffer_at(b)));
+  each.pair /= each.room;
+  each.body /= static_cast<double>(world.scene().bodies.size());
+  return each;
+}
+
 std::vector<StageSum> sums_by_stage(const Plan &plan)
 {
   std::vector<StageSum> sums(stage_count);
@@ -82,8 +119,8 @@ std::vector<StageSum> sums_by_stage(const Plan &plan)
   }
   for (size_t b = 0; b < buffer_count; ++b) {
     StageSum &sum = sums[static_cast<size_t>(stage_of(buffer_at(b)))];
-    sum.bytes += plan.bytes(buffer_at(b));
-    sum.bytes_with_all += plan.bytes_with_all(buffer_at(b));
+    sum.bytes += own_bytes(plan.chosen, buffer_at(b));
+    sum.bytes_with_all += own_bytes(plan.everything, buffer_at(b));
   }
   return sums;
 }

@@ -64,10 +64,12 @@ Json buffers_json(const Plan &plan)
   Json list = Json::array();
   for (size_t b = 0; b < buffer_count; ++b) {
     const uint64_t bytes = plan.bytes(buffer_at(b));
+    const std::optional<Buffer> landlord = landlord_of(plan.chosen, buffer_at(b));
     list.push_back({{"name", row_of(buffer_at(b)).name},
                     {"stage", name_of(stage_of(buffer_at(b)))},
                     {"kept", bytes > 0},
-                    {"bytes", bytes ? bytes : plan.bytes_with_all(buffer_at(b))}});
+                    {"bytes", bytes ? bytes : plan.bytes_with_all(buffer_at(b))},
+                    {"in_memory_of", landlord ? Json(row_of(*landlord).name) : Json(nullptr)}});
   }
   return list;
 }
@@ -97,6 +99,7 @@ Json compiled_json(const Plan &plan)
 
 Json plan_json(const Plan &plan, const std::string &scene, const Placement &placement)
 {
+  const BytesEach each = bytes_each(plan.chosen);
   return {{"scene", scene},
           {"backend", placement.on},
           {"features", features_json(plan)},
@@ -111,6 +114,9 @@ Json plan_json(const Plan &plan, const std::string &scene, const Placement &plac
           {"kernels_built", plan.chosen.kernels().size()},
           {"buffers", buffers_json(plan)},
           {"memory_bytes", plan.chosen.memory().total_bytes()},
+          {"bytes_a_body", each.body},
+          {"bytes_a_pair", each.pair},
+          {"room_for_pairs", each.room},
           {"build_ms", plan.chosen.build_milliseconds()}};
 }
 
@@ -189,10 +195,11 @@ void print_stages(const Plan &plan)
 
 void print_buffers(const Plan &plan)
 {
-  Table kept({"buffer kept", "bytes"}), out({"buffer left out", "bytes saved"});
+  Table kept({"buffer kept", "bytes", "in the memory of"}), out({"buffer left out", "bytes saved"});
   for (size_t b = 0; b < buffer_count; ++b) {
     const uint64_t bytes = plan.bytes(buffer_at(b)), saved = plan.bytes_with_all(buffer_at(b));
-    if (bytes) kept.add({row_of(buffer_at(b)).name, fmt::format("{}", bytes)});
+    const std::optional<Buffer> landlord = landlord_of(plan.chosen, buffer_at(b));
+    if (bytes) kept.add({row_of(buffer_at(b)).name, fmt::format("{}", bytes), landlord ? row_of(*landlord).name : ""});
     else if (saved) out.add({row_of(buffer_at(b)).name, fmt::format("{}", saved)});
     else out.add({row_of(buffer_at(b)).name, "-"});
   }
@@ -218,7 +225,9 @@ void print_plan(const Plan &plan, const std::string &scene, Broadphase broadphas
   print_compiled(plan);
   print_stages(plan);
   print_buffers(plan);
-  fmt::print("memory: {}\n", bytes_text(plan.chosen.memory().total_bytes()));
+  const BytesEach each = bytes_each(plan.chosen);
+  fmt::print("memory: {}, of which {:.0f} bytes a body and {:.0f} a pair, with room for {} pairs\n",
+             bytes_text(plan.chosen.memory().total_bytes()), each.body, each.pair, each.room);
 }
 
 /* The choice is made by the times of steps, so some are made, and one more on what was chosen. A scene that never

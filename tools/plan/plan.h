@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,7 +32,17 @@ private:
   std::vector<bool> built_, built_with_all_;
 };
 
-/* The kernels and the bytes of a stage. */
+/* The buffer in whose memory this one lies, or none where it has memory of its own. */
+std::optional<Buffer> landlord_of(World &world, Buffer buffer);
+
+/* What a world takes for each body, and for each pair that it has room for. */
+struct BytesEach {
+  uint32_t room = 0;
+  double body = 0, pair = 0;
+};
+BytesEach bytes_each(World &world);
+
+/* The kernels and the bytes of a stage; shared memory counts where its owner does. */
 struct StageSum {
   Stage stage;
   size_t kernels = 0, kernels_with_all = 0, kernels_of_all = 0;

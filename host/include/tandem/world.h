@@ -380,7 +380,8 @@ public:
                 first > SIZE_MAX / sizeof(T) ? SIZE_MAX : first * sizeof(T));
   }
   /* Reads all of any buffer that this world has, the pipeline's included, as the last launch left it. Where stages run
-   * in several memories, what lies behind the rows in use is undefined. */
+   * in several memories, what lies behind the rows in use is undefined. Scratch whose memory another buffer has taken
+   * in the same step is refused (InputError); a world that has modules or an observer leaves each its own. */
   template <class T> std::vector<T> read(Buffer buffer)
   {
     std::vector<T> values(buffer_bytes(buffer) / sizeof(T));

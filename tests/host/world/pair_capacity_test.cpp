@@ -1,6 +1,7 @@
 /* Room for pairs can be reserved and given back, and neither changes a bit. */
 #include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <tandem/error.h>
@@ -8,8 +9,11 @@
 
 #include "host/base/random.h"
 #include "host/runtime/memory.h"
+#include "shared/counts.h"
+#include "shared/platform.h"
 #include "tests/catch.h"
 #include "tests/host/runtime/opencl/pocl.h"
+#include "tests/parity/parity.h"
 
 namespace tandem {
 namespace {
@@ -58,6 +62,22 @@ TEST_CASE("a step for whose pairs room was reserved does not run again, and has 
     CHECK(plain.statistics().overflow > 0);
     CHECK(ready.statistics().overflow == 0);
   }
+}
+
+TEST_CASE("the first step that outgrows its room makes hardly more than it needs, and each later one an eighth more")
+{
+  Settings settings;
+  settings.broadphase = Broadphase::grid; /* finds all pairs, whatever there is room for */
+  World world(parity::imploding_boxes(), settings);
+  const auto room_of = [&] { return world.memory().read<uint32_t>(Buffer::counts, 1, CAPACITY_PAIRS).front(); };
+  uint32_t room = room_of(), grown = 0;
+  for (int i = 0; i < 20; ++i) {
+    world.step();
+    if (room_of() == std::exchange(room, room_of())) continue;
+    const uint32_t pairs = world.statistics().pairs;
+    CHECK(room == pairs + pairs / (grown++ == 0 ? 64 : 8));
+  }
+  CHECK(grown >= 2);
 }
 
 TEST_CASE("room that is reserved between steps keeps the cache of contacts")

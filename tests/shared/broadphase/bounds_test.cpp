@@ -51,6 +51,7 @@ TEST_CASE("bounds hold every shape in any pose, at rest, in flight and spinning"
   Settings settings;
   settings.bounds = kind;
   World world(scene, settings);
+  world.set_observer([](const Launch &) {}); /* so that no other buffer takes the memory of the bounds */
   const std::vector<BodyState> start = world.bodies();
   world.step();
   REQUIRE(world.statistics().contacts == 0);

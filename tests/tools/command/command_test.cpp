@@ -342,7 +342,7 @@ TEST_CASE("command: lists and plan", "[command]")
 
   const Json plan = json_of("plan " + tiny);
   check_keys(plan, {"scene", "backend", "features", "flags", "kernels", "kernels_built", "buffers", "memory_bytes",
-                    "build_ms"});
+                    "bytes_a_body", "bytes_a_pair", "room_for_pairs", "build_ms"});
   const auto find = [&](const char *list, const std::string &name) {
     for (const Json &entry : plan[list])
       if (entry["name"] == name) return entry;
@@ -356,8 +356,12 @@ TEST_CASE("command: lists and plan", "[command]")
   CHECK(find("buffers", "body_filter")["bytes"].get<int>() > 0);
   int64_t kept = 0;
   for (const Json &buffer : plan["buffers"])
-    if (buffer["kept"] == true) kept += buffer["bytes"].get<int64_t>();
+    if (buffer["kept"] == true && buffer["in_memory_of"].is_null()) kept += buffer["bytes"].get<int64_t>();
   CHECK(kept == plan["memory_bytes"].get<int64_t>());
+  const double bodies = 9, items = plan["bytes_a_body"].get<double>() * bodies +
+                                   plan["bytes_a_pair"].get<double>() * plan["room_for_pairs"].get<double>();
+  CHECK(static_cast<int64_t>(items + 0.5) == kept);
+  CHECK(find("buffers", "sort_key")["in_memory_of"].is_string());
 }
 
 TEST_CASE("command: plan draws what is kept and what is left out", "[command]")
