@@ -43,7 +43,10 @@ public:
     find_pairs();
     if (plan().apart) expect_no_pairs();
     else find_constraints();
-    if (plan().substeps.automatic) weigh_standing();
+    if (plan().substeps.automatic) {
+      run(Kernel::limit_slop);
+      weigh_standing();
+    }
     run_extensions(StepPoint::constraints);
     row_of(settings().solver).launch(*this);
     if (has(FEATURE_CONTINUOUS)) keep_out_of_walls();

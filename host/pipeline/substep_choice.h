@@ -21,6 +21,10 @@ struct SubstepChoice {
   uint32_t calm_steps = 0; /* that needed no more than half of them */
 };
 
+/* More than 4 and 64 if contacts are asked for that are stiffer than these allow. */
+uint32_t fewest_substeps(const Settings &settings);
+uint32_t most_substeps(const Settings &settings);
+
 SubstepChoice first_choice(const Settings &settings);
 
 /* COUNT_LOAD_RATE up to which these substeps suffice. */
@@ -32,7 +36,7 @@ void raise_substeps(SubstepChoice &choice, uint32_t load_rate, const Settings &s
 /* After a step that is done. */
 void settle_substeps(SubstepChoice &choice, uint32_t load_rate, const Settings &settings);
 
-/* The settings with these substeps, and with contacts as stiff as they allow if they are more than the fewest. */
+/* The settings with these substeps, and with contacts as stiff as they allow if they are more than four. */
 Settings with_substeps(const Settings &settings, const SubstepChoice &choice);
 
 } // namespace tandem

@@ -1,4 +1,5 @@
 /* Worlds that choose their substeps: loads and stacks get as many as they need, others the bits of four. */
+#include <algorithm>
 #include <bit>
 
 #include "host/catalog/catalog.h"
@@ -160,6 +161,84 @@ TEST_CASE("automatic substeps: four bear less in short steps, whose contacts are
   CHECK(choice.now == 4);
   raise_substeps(choice, bits_of(301.0f * 301.0f), settings);
   CHECK(choice.now == 8);
+}
+
+TEST_CASE("automatic substeps: contacts asked for stiffer than the default get as many as these act with", "[physics]")
+{
+  const auto fewest = [](float hertz) {
+    Settings settings = automatic();
+    settings.contact_hertz = hertz;
+    return first_choice(settings).now;
+  };
+  CHECK(fewest(6) == 4);
+  CHECK(fewest(60) == 4);
+  CHECK(fewest(600) == 64); /* 50 and more */
+  CHECK(fewest(6000) == 512);
+  CHECK(fewest(600000) == 512); /* no world takes more */
+  Settings stiff = automatic();
+  stiff.contact_hertz = 6000;
+  SubstepChoice choice = first_choice(stiff);
+  raise_substeps(choice, bits_of(1e20f), stiff);
+  CHECK(choice.now == 512);
+  for (int i = 0; i < 600; ++i) settle_substeps(choice, 0, stiff);
+  CHECK(choice.now == 512);
+}
+
+TEST_CASE("automatic substeps: a world that asks for stiff contacts goes on from a snapshot with the same bits",
+          "[physics]")
+{
+  Settings stiff = automatic();
+  stiff.contact_hertz = 1000;
+  World world(column_of({1, 1}), stiff, {});
+  run(world, 5);
+  World restored(world.save(), Placement{});
+  run(world, 5);
+  run(restored, 5);
+  CHECK(world.statistics().substeps == 128);
+  CHECK(restored.state_hash() == world.state_hash());
+}
+
+TEST_CASE("automatic substeps: bodies inside one another part no faster beside a load that wants many", "[physics]")
+{
+  const Scene load = column_of({1, 1000});
+  const auto fastest_apart = [&](const Settings &settings) {
+    Scene scene = load;
+    Body cube = scene.bodies[1];
+    cube.position = {5, 0.5, 0};
+    scene.bodies.push_back(cube);
+    cube.position = {5.98, 0.5, 0}; /* 2 cm inside the other */
+    scene.bodies.push_back(cube);
+    World world(scene, settings, {});
+    double fastest = 0;
+    for (int step = 0; step < 60; ++step) {
+      world.step();
+      const std::vector<BodyState> bodies = world.bodies();
+      fastest = std::max(fastest, double{bodies[4].linear_velocity[0] - bodies[3].linear_velocity[0]});
+    }
+    CHECK(world.bodies()[4].position[0] - world.bodies()[3].position[0] > 0.99);
+    return fastest;
+  };
+  const double with_four = fastest_apart(settings_with(1.0 / 60));
+  Settings as_stiff = settings_with(1.0 / 60, 16);
+  as_stiff.contact_hertz = 192;
+  CHECK(fastest_apart(as_stiff) > 2 * with_four);
+  CHECK(fastest_apart(automatic()) < 1.1 * with_four);
+}
+
+TEST_CASE("automatic substeps: a top sinks no deeper than it falls while it turns by a radian", "[physics]")
+{
+  const Scene scene = load_scene("tops"); /* 100 rad/s */
+  const auto deepest = [&](uint32_t substeps) {
+    World world(scene, settings_with(1e-3, substeps), {});
+    double depth = 0;
+    for (int step = 0; step < 1000; ++step) {
+      world.step();
+      depth = std::max(depth, double{world.statistics().max_penetration});
+    }
+    return depth;
+  };
+  CHECK(deepest(4) > 2e-3);
+  CHECK(deepest(automatic_substeps) < 1.1 * 10 / (2 * 100.0 * 100.0));
 }
 
 TEST_CASE("automatic substeps are refused to solvers that do not choose", "[physics]")
