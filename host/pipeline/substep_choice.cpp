@@ -101,6 +101,11 @@ void raise_substeps(SubstepChoice &choice, uint32_t load_rate, const Settings &s
   choice.calm_steps = 0;
 }
 
+void note_start(SubstepChoice &choice, uint32_t braced_layers)
+{
+  if (choice.automatic && choice.starts) choice.layers_at_start = braced_layers;
+}
+
 void settle_substeps(SubstepChoice &choice, uint32_t load_rate, const Settings &settings)
 {
   if (!choice.automatic) return;

@@ -40,8 +40,8 @@ template <Is<SleepingIsland> T, class Visit> auto visit_fields(T &record, const 
 
 template <Is<SubstepChoice> T, class Visit> auto visit_fields(T &record, const Visit &visit)
 {
-  auto &[automatic, starts, now, of_cache, calm_steps] = record;
-  return visit(automatic, starts, now, of_cache, calm_steps);
+  auto &[automatic, starts, now, of_cache, calm_steps, layers_at_start] = record;
+  return visit(automatic, starts, now, of_cache, calm_steps, layers_at_start);
 }
 
 template <Is<SleepEvent> T, class Visit> auto visit_fields(T &record, const Visit &visit)

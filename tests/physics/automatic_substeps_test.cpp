@@ -1,6 +1,7 @@
 /* Worlds that choose their substeps: loads and stacks get as many as they need, others the bits of four. */
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 #include "host/catalog/catalog.h"
 #include "host/pipeline/substep_choice.h"
@@ -163,6 +164,46 @@ TEST_CASE("automatic substeps: four bear less in short steps, whose contacts are
   CHECK(choice.now == 8);
 }
 
+TEST_CASE("automatic substeps: a tower of planks that the world starts with comes to rest", "[physics]")
+{
+  const Scene scene = load_scene("tower");
+  const auto farthest_sideways = [&](World &world) {
+    double farthest = 0;
+    const std::vector<BodyState> bodies = world.bodies();
+    for (size_t i = 0; i < bodies.size(); ++i)
+      for (const size_t axis : {0, 2})
+        farthest = std::max(farthest, std::abs(double(bodies[i].position[axis]) - scene.bodies[i].position[axis]));
+    return farthest;
+  };
+  World chosen(scene, automatic(), {}), four(scene, settings_with(1.0 / 60), {});
+  run(chosen, 200);
+  run(four, 200);
+  CHECK(chosen.statistics().substeps == 16); /* 17 layers of planks that rest on three: 578 substeps a second */
+  CHECK(farthest_sideways(chosen) < 0.001);
+  CHECK(farthest_sideways(four) > 0.005);
+}
+
+TEST_CASE("automatic substeps: layers that did not stand at the start do not count as a structure", "[physics]")
+{
+  SubstepChoice choice = first_choice(automatic());
+  CHECK(choice.starts);
+  note_start(choice, 17);
+  settle_substeps(choice, 0, automatic());
+  note_start(choice, 30);
+  CHECK(choice.layers_at_start == 17);
+}
+
+TEST_CASE("automatic substeps: layers of large boxes, which sway by little of their size, keep the bits of four",
+          "[physics]")
+{
+  const Scene scene = load_scene("box-grid:nx=4,ny=20,nz=4");
+  World chosen(scene, automatic(), {}), four(scene, settings_with(1.0 / 60), {});
+  run(chosen, 20);
+  run(four, 20);
+  CHECK(chosen.statistics().substeps == 4);
+  CHECK(chosen.body_hash() == four.body_hash());
+}
+
 TEST_CASE("automatic substeps: contacts asked for stiffer than the default get as many as these act with", "[physics]")
 {
   const auto fewest = [](float hertz) {
@@ -201,28 +242,23 @@ TEST_CASE("automatic substeps: a world that asks for stiff contacts goes on from
 TEST_CASE("automatic substeps: bodies inside one another part no faster beside a load that wants many", "[physics]")
 {
   const Scene load = column_of({1, 1000});
-  const auto fastest_apart = [&](const Settings &settings) {
+  const auto parted_in_a_step = [&](const Settings &settings) {
     Scene scene = load;
     Body cube = scene.bodies[1];
-    cube.position = {5, 0.5, 0};
-    scene.bodies.push_back(cube);
-    cube.position = {5.98, 0.5, 0}; /* 2 cm inside the other */
-    scene.bodies.push_back(cube);
-    World world(scene, settings, {});
-    double fastest = 0;
-    for (int step = 0; step < 60; ++step) {
-      world.step();
-      const std::vector<BodyState> bodies = world.bodies();
-      fastest = std::max(fastest, double{bodies[4].linear_velocity[0] - bodies[3].linear_velocity[0]});
+    for (const double x : {5.0, 5.98}) { /* 2 cm inside one another */
+      cube.position = {x, 0.5, 0};
+      scene.bodies.push_back(cube);
     }
-    CHECK(world.bodies()[4].position[0] - world.bodies()[3].position[0] > 0.99);
-    return fastest;
+    World world(scene, settings, {});
+    world.step();
+    return world.bodies()[4].position[0] - world.bodies()[3].position[0] - 0.98;
   };
-  const double with_four = fastest_apart(settings_with(1.0 / 60));
+  const double with_four = parted_in_a_step(settings_with(1.0 / 60));
   Settings as_stiff = settings_with(1.0 / 60, 16);
   as_stiff.contact_hertz = 192;
-  CHECK(fastest_apart(as_stiff) > 2 * with_four);
-  CHECK(fastest_apart(automatic()) < 1.1 * with_four);
+  CHECK(with_four > 0.001);
+  CHECK(parted_in_a_step(as_stiff) > 2 * with_four);
+  CHECK(parted_in_a_step(automatic()) < 1.1 * with_four);
 }
 
 TEST_CASE("automatic substeps: a top sinks no deeper than it falls while it turns by a radian", "[physics]")
@@ -238,7 +274,7 @@ TEST_CASE("automatic substeps: a top sinks no deeper than it falls while it turn
     return depth;
   };
   CHECK(deepest(4) > 2e-3);
-  CHECK(deepest(automatic_substeps) < 1.1 * 10 / (2 * 100.0 * 100.0));
+  CHECK(deepest(automatic_substeps) < 1.5 * 10 / (2 * 100.0 * 100.0)); /* under its weight a little deeper */
 }
 
 TEST_CASE("automatic substeps are refused to solvers that do not choose", "[physics]")
