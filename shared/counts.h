@@ -106,7 +106,8 @@ enum {
   COUNT_ISLANDS_OPEN,         /* 1 if more rounds might change one */
   COUNT_FALLING_ASLEEP,       /* bodies that fall asleep at the end of the step */
   COUNT_LOAD_RATE,     /* bits of a float, 1/s^2: square of the rate of substeps that loads need (setup/standing.h) */
-  COUNT_BRACED_LAYERS, /* of the highest stack whose bodies rest on several, in the first step of a world; else 0 */
+  COUNT_BRACED_LAYERS, /* of the highest stack that needs substeps because its bodies rest on several, in the first step
+                          of a world; else 0 */
   COUNT_EVENTS,        /* of the step; 0 unless it was committed */
   COUNT_PAIR_EVENTS,   /* the same of pairs that come near, stay or leave */
   COUNT_MOVED,         /* bodies that the step has moved, with Settings::moved_bodies */

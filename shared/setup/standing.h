@@ -135,18 +135,20 @@ SHARED real rate_needed(GLOBAL const Parameters *parameters, const standing_pair
 }
 
 /* Rates that the fewest substeps have are not noted, so that few contacts meet at the maximum. */
-SHARED void note_rate(GLOBAL const Parameters *parameters, real rate, GLOBAL uint *counts)
+SHARED uint note_rate(GLOBAL const Parameters *parameters, real rate, GLOBAL uint *counts)
 {
   real fewest = minimum(FEWEST_SUBSTEPS / parameters->step, SOFTEST_RATE);
-  if (rate > fewest * fewest) ATOMIC_MAX(counts + COUNT_LOAD_RATE, FLOAT_BITS(minimum(rate, HIGHEST_RATE)));
+  if (!(rate > fewest * fewest)) return 0u;
+  ATOMIC_MAX(counts + COUNT_LOAD_RATE, FLOAT_BITS(minimum(rate, HIGHEST_RATE)));
+  return 1u;
 }
 
 SHARED void note_braced(GLOBAL const Parameters *parameters, uint layers, uint layers_at_start, real bearable,
                         GLOBAL uint *counts)
 {
-  if (layers_at_start == INDEX_NONE) ATOMIC_MAX(counts + COUNT_BRACED_LAYERS, layers);
   uint counted = layers < layers_at_start ? layers : layers_at_start;
-  note_rate(parameters, rate_of_braced(parameters, counted, bearable), counts);
+  uint noted = note_rate(parameters, rate_of_braced(parameters, counted, bearable), counts);
+  if (layers_at_start == INDEX_NONE && noted != 0u) ATOMIC_MAX(counts + COUNT_BRACED_LAYERS, layers);
 }
 
 /* standing_above: of the pass before, or of the last step. standing: is 0 before. layers_at_start: COUNT_BRACED_LAYERS
