@@ -105,11 +105,13 @@ enum {
   COUNT_ISLAND_ROUNDS,        /* rounds that changed a label of an island */
   COUNT_ISLANDS_OPEN,         /* 1 if more rounds might change one */
   COUNT_FALLING_ASLEEP,       /* bodies that fall asleep at the end of the step */
-  COUNT_LOAD_RATE,   /* bits of a float, 1/s^2: square of the rate of substeps that loads need (setup/standing.h) */
-  COUNT_EVENTS,      /* of the step; 0 unless it was committed */
-  COUNT_PAIR_EVENTS, /* the same of pairs that come near, stay or leave */
-  COUNT_MOVED,       /* bodies that the step has moved, with Settings::moved_bodies */
-  KIND_START,        /* the start of each kind in pair_of_kind, and the end of the last one */
+  COUNT_LOAD_RATE,     /* bits of a float, 1/s^2: square of the rate of substeps that loads need (setup/standing.h) */
+  COUNT_BRACED_LAYERS, /* of the highest stack that needs substeps because its bodies rest on several, in the first step
+                          of a world; else 0 */
+  COUNT_EVENTS,        /* of the step; 0 unless it was committed */
+  COUNT_PAIR_EVENTS,   /* the same of pairs that come near, stay or leave */
+  COUNT_MOVED,         /* bodies that the step has moved, with Settings::moved_bodies */
+  KIND_START,          /* the start of each kind in pair_of_kind, and the end of the last one */
   /* The ranges of the bodies sorted by colour, stored as those of COLOR_START. */
   BODY_COLOR_START = KIND_START + PAIR_KIND_NONE + 1,
   COLOR_START = BODY_COLOR_START + COLOR_ENTRIES,

@@ -179,7 +179,7 @@ void validate(const Settings &settings)
                                  name_of(settings.solver)));
   if (settings.substeps != automatic_substeps) check_count("substeps", settings.substeps);
   check_count("iterations", settings.iterations);
-  const uint32_t substeps = settings.substeps == automatic_substeps ? most_automatic_substeps : settings.substeps;
+  const uint32_t substeps = settings.substeps == automatic_substeps ? most_substeps(settings) : settings.substeps;
   const float parts = substeps;
   if (settings.step / parts < 1e-9f)
     throw InputError(

@@ -43,7 +43,11 @@ public:
     find_pairs();
     if (plan().apart) expect_no_pairs();
     else find_constraints();
-    if (plan().substeps.automatic) weigh_standing();
+    if (plan().substeps.automatic) {
+      run(Kernel::limit_slop);
+      count_supports();
+      weigh_standing();
+    }
     run_extensions(StepPoint::constraints);
     row_of(settings().solver).launch(*this);
     if (has(FEATURE_CONTINUOUS)) keep_out_of_walls();
@@ -179,6 +183,15 @@ private:
     run(Kernel::world_color_keys);
   }
 
+  /* COUNT_BRACED_LAYERS that count: all in the first step. */
+  uint32_t layers_at_start() const { return plan().substeps.starts ? INDEX_NONE : plan().substeps.layers_at_start; }
+
+  void count_supports()
+  {
+    run_range(Kernel::fill, COUNT_ZERO, COUNT_BODIES, {0}, {Buffer::body_supports});
+    if (layers_at_start() > 0) run(Kernel::count_supports);
+  }
+
   /* A step carries what stands on a body down by one layer. The first step of a world carries it down through stacks,
    * because those that are too tall would have begun to fall by the time that all is known. */
   void weigh_standing()
@@ -187,7 +200,7 @@ private:
     Buffer from = Buffer::cached_standing, to = Buffer::body_standing, other = Buffer::body_standing_other;
     for (uint32_t pass = 0; pass < passes; ++pass) {
       run_range(Kernel::fill, COUNT_ZERO, COUNT_HALVES, {0}, {to});
-      run(Kernel::weigh_standing, {}, {from, to});
+      run(Kernel::weigh_standing, {layers_at_start()}, {from, to});
       from = std::exchange(to, other);
       other = from;
     }

@@ -15,11 +15,16 @@ constexpr uint32_t fewest_automatic_substeps = 4, most_automatic_substeps = 64;
 
 struct SubstepChoice {
   bool automatic = false;
-  bool starts = true;      /* no step has been done, so nothing is known of what stands on what */
-  uint32_t now = 0;        /* substeps of the next step */
-  uint32_t of_cache = 0;   /* of the step that left the impulses in the cache */
-  uint32_t calm_steps = 0; /* that needed no more than half of them */
+  bool starts = true;           /* no step has been done, so nothing is known of what stands on what */
+  uint32_t now = 0;             /* substeps of the next step */
+  uint32_t of_cache = 0;        /* of the step that left the impulses in the cache */
+  uint32_t calm_steps = 0;      /* that needed no more than half of them */
+  uint32_t layers_at_start = 0; /* COUNT_BRACED_LAYERS of the first step */
 };
+
+/* More than 4 and 64 if contacts are asked for that are stiffer than these allow. */
+uint32_t fewest_substeps(const Settings &settings);
+uint32_t most_substeps(const Settings &settings);
 
 SubstepChoice first_choice(const Settings &settings);
 
@@ -29,10 +34,13 @@ uint32_t highest_load_rate(const SubstepChoice &choice, const Settings &settings
 /* After an attempt that needed more: so many that COUNT_LOAD_RATE is not above highest_load_rate, or the most. */
 void raise_substeps(SubstepChoice &choice, uint32_t load_rate, const Settings &settings);
 
+/* After the first step. */
+void note_start(SubstepChoice &choice, uint32_t braced_layers);
+
 /* After a step that is done. */
 void settle_substeps(SubstepChoice &choice, uint32_t load_rate, const Settings &settings);
 
-/* The settings with these substeps, and with contacts as stiff as they allow if they are more than the fewest. */
+/* The settings with these substeps, and with contacts as stiff as they allow if they are more than four. */
 Settings with_substeps(const Settings &settings, const SubstepChoice &choice);
 
 } // namespace tandem

@@ -40,8 +40,8 @@ template <Is<SleepingIsland> T, class Visit> auto visit_fields(T &record, const 
 
 template <Is<SubstepChoice> T, class Visit> auto visit_fields(T &record, const Visit &visit)
 {
-  auto &[automatic, starts, now, of_cache, calm_steps] = record;
-  return visit(automatic, starts, now, of_cache, calm_steps);
+  auto &[automatic, starts, now, of_cache, calm_steps, layers_at_start] = record;
+  return visit(automatic, starts, now, of_cache, calm_steps, layers_at_start);
 }
 
 template <Is<SleepEvent> T, class Visit> auto visit_fields(T &record, const Visit &visit)
@@ -107,7 +107,7 @@ void check_substeps(const ByteReader &reader, const SnapshotContents &contents)
 {
   const SubstepChoice &choice = contents.substeps;
   const SubstepChoice first = first_choice(contents.settings);
-  const uint32_t most = choice.automatic ? most_automatic_substeps : first.now;
+  const uint32_t most = choice.automatic ? most_substeps(contents.settings) : first.now;
   const auto is_allowed = [&](uint32_t substeps) { return substeps >= first.now && substeps <= most; };
   if (choice.automatic != first.automatic || !is_allowed(choice.now) || !is_allowed(choice.of_cache))
     reader.fail(fmt::format("{} substeps after {}, of a world that takes {} to {}", choice.now, choice.of_cache,

@@ -37,6 +37,7 @@ SHARED void begin_step_item(GLOBAL uint *counts, uint i)
   counts[COUNT_ISLANDS_OPEN] = 0u;
   counts[COUNT_FALLING_ASLEEP] = 0u;
   counts[COUNT_LOAD_RATE] = 0u;
+  counts[COUNT_BRACED_LAYERS] = 0u;
 }
 
 /* Where the step has moved a body. */

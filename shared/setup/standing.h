@@ -12,6 +12,11 @@
  *      [m1]           layers 2, weight m2 + m3, of all chains the heaviest
  *
  * Each pass carries layers and weights down by one body. They are maxima, so their order changes no bit.
+ *
+ * Where bodies rest on several others, statics alone does not say how much each bears. Passes over the contacts find it
+ * as heat spreads, n layers in n^2 passes, and structures that find it too slowly sway for ever. They may sway by the
+ * share of their size that small bodies have as slop. Heaps sway, too, but nobody built them: no more layers count than
+ * stood at the start of the world.
  */
 #ifndef TANDEM_SHARED_SETUP_STANDING_H
 #define TANDEM_SHARED_SETUP_STANDING_H
@@ -24,6 +29,11 @@
 #define BEARABLE_SINK R(2.0)
 /* From about 35 cubes of 1 m on, a column buckles at 1/240 s and 10 m/s^2: 35^3 * 10 / 240^2. */
 #define STIFFEST_STACK R(7.44)
+/* Structures of n layers whose bodies rest on several others come to rest from this times n^2 substeps a second on:
+ * about 11 levels of a tower of planks at 240, 16 at 480, 22 at 960. */
+#define BRACED_REST R(2.0)
+/* With fewer they sway by this times g h^2: towers of any size by about 3 cm at 1/240 s and 1 cm at 1/480 s. */
+#define BRACED_SWAY R(200.0)
 /* The fewest substeps of a step, and the rate that contacts of 60 Hz, the softest, are the stiffest of. */
 #define FEWEST_SUBSTEPS R(4.0)
 #define SOFTEST_RATE R(300.0)
@@ -83,6 +93,37 @@ SHARED uint stands_near(GLOBAL const Parameters *parameters, GLOBAL const memory
   return 0u;
 }
 
+/* Whether the contact bears its upper body, or is about to. */
+SHARED uint stands(GLOBAL const Parameters *parameters, const standing_pair *p, real borne,
+                   GLOBAL const memory_real *constraint_points, point_planes planes, uint i)
+{
+  if (!(p->up * p->up >= STANDS) || !(p->inverse_mass_upper > R(0.0))) return 0u;
+  if (borne > R(0.0)) return 1u;
+  if (p->closing > parameters->gravity_length * parameters->step) return 0u;
+  return stands_near(parameters, constraint_points, planes, i);
+}
+
+/* On how many contacts each body stands. supports: is 0 before. */
+SHARED void count_supports_item(GLOBAL const Parameters *parameters, GLOBAL const float4 *solver_velocity,
+                                read_contacts contacts, GLOBAL const memory_real *constraint_points,
+                                GLOBAL const float4 *constraint_normal_impulse, GLOBAL const uint *counts,
+                                GLOBAL uint *body_supports, uint i)
+{
+  if (!(parameters->gravity_length > R(0.0))) return;
+  standing_pair p = standing_pair_of(parameters, contacts, solver_velocity, i);
+  real borne = force_borne(parameters, constraint_normal_impulse, i);
+  if (stands(parameters, &p, borne, constraint_points, planes_of(counts), i) != 0u)
+    ATOMIC_ADD(body_supports + p.upper, 1u);
+}
+
+/* The square of the rate of substeps at which so many layers of bodies that rest on several come to rest or sway by
+ * `bearable`, 1/s^2. */
+SHARED real rate_of_braced(GLOBAL const Parameters *parameters, uint layers, real bearable)
+{
+  real rests = BRACED_REST * (real)layers * (real)layers;
+  return minimum(rests * rests, BRACED_SWAY * parameters->gravity_length / bearable);
+}
+
 /* The square of the rate of substeps that the contact needs, 1/s^2. */
 SHARED real rate_needed(GLOBAL const Parameters *parameters, const standing_pair *p, real load, uint layers, real slop,
                         real size)
@@ -94,28 +135,37 @@ SHARED real rate_needed(GLOBAL const Parameters *parameters, const standing_pair
 }
 
 /* Rates that the fewest substeps have are not noted, so that few contacts meet at the maximum. */
-SHARED void note_rate(GLOBAL const Parameters *parameters, real rate, GLOBAL uint *counts)
+SHARED uint note_rate(GLOBAL const Parameters *parameters, real rate, GLOBAL uint *counts)
 {
   real fewest = minimum(FEWEST_SUBSTEPS / parameters->step, SOFTEST_RATE);
-  if (rate > fewest * fewest) ATOMIC_MAX(counts + COUNT_LOAD_RATE, FLOAT_BITS(minimum(rate, HIGHEST_RATE)));
+  if (!(rate > fewest * fewest)) return 0u;
+  ATOMIC_MAX(counts + COUNT_LOAD_RATE, FLOAT_BITS(minimum(rate, HIGHEST_RATE)));
+  return 1u;
 }
 
-/* standing_above: of the pass before, or of the last step. standing: is 0 before. */
+SHARED void note_braced(GLOBAL const Parameters *parameters, uint layers, uint layers_at_start, real bearable,
+                        GLOBAL uint *counts)
+{
+  uint counted = layers < layers_at_start ? layers : layers_at_start;
+  uint noted = note_rate(parameters, rate_of_braced(parameters, counted, bearable), counts);
+  if (layers_at_start == INDEX_NONE && noted != 0u) ATOMIC_MAX(counts + COUNT_BRACED_LAYERS, layers);
+}
+
+/* standing_above: of the pass before, or of the last step. standing: is 0 before. layers_at_start: COUNT_BRACED_LAYERS
+ * of the first step of the world, INDEX_NONE in that step. */
 SHARED void weigh_standing_item(GLOBAL const Parameters *parameters, GLOBAL const float4 *body_shape,
                                 GLOBAL const float4 *solver_velocity, GLOBAL const uint *pair_cached,
                                 GLOBAL const uint *constraint_pair, read_contacts contacts,
                                 GLOBAL const memory_real *constraint_points,
-                                GLOBAL const float4 *constraint_normal_impulse, GLOBAL const uint *standing_above,
-                                GLOBAL uint *standing, GLOBAL uint *counts, uint i)
+                                GLOBAL const float4 *constraint_normal_impulse, GLOBAL const uint *body_supports,
+                                GLOBAL const uint *standing_above, GLOBAL uint *standing, GLOBAL uint *counts,
+                                uint layers_at_start, uint i)
 {
   if (!(parameters->gravity_length > R(0.0))) return;
   standing_pair p = standing_pair_of(parameters, contacts, solver_velocity, i);
-  if (!(p.up * p.up >= STANDS) || !(p.inverse_mass_upper > R(0.0))) return;
   real borne = force_borne(parameters, constraint_normal_impulse, i);
+  if (stands(parameters, &p, borne, constraint_points, planes_of(counts), i) == 0u) return;
   uint is_new = pair_cached[constraint_pair[i]] == INDEX_NONE ? 1u : 0u;
-  if (!(borne > R(0.0)) && (p.closing > parameters->gravity_length * parameters->step ||
-                            !stands_near(parameters, constraint_points, planes_of(counts), i)))
-    return;
   uint layers = standing_above[2u * p.upper] + 1u;
   real weight = R(1.0) / p.inverse_mass_upper + BITS_FLOAT(standing_above[2u * p.upper + 1u]);
   if (borne > R(0.0)) weight = minimum(weight, PASSED_ON * borne / parameters->gravity_length);
@@ -129,7 +179,9 @@ SHARED void weigh_standing_item(GLOBAL const Parameters *parameters, GLOBAL cons
   real slop = parameters->slop > R(0.0) ? parameters->slop : USUAL_SLOP;
   real share = parameters->slop_share > R(0.0) ? parameters->slop_share : USUAL_SLOP_SHARE;
   if (size > R(0.0)) slop = minimum(slop, share * size);
-  note_rate(parameters, rate_needed(parameters, &p, load, layers, slop, size > R(0.0) ? size : R(0.5)), counts);
+  else size = R(0.5);
+  note_rate(parameters, rate_needed(parameters, &p, load, layers, slop, size), counts);
+  if (body_supports[p.upper] > 1u) note_braced(parameters, layers, layers_at_start, share * size, counts);
 }
 
 #endif

@@ -1,5 +1,7 @@
 /* Worlds that choose their substeps: loads and stacks get as many as they need, others the bits of four. */
+#include <algorithm>
 #include <bit>
+#include <cmath>
 
 #include "host/catalog/catalog.h"
 #include "host/pipeline/substep_choice.h"
@@ -160,6 +162,119 @@ TEST_CASE("automatic substeps: four bear less in short steps, whose contacts are
   CHECK(choice.now == 4);
   raise_substeps(choice, bits_of(301.0f * 301.0f), settings);
   CHECK(choice.now == 8);
+}
+
+TEST_CASE("automatic substeps: a tower of planks that the world starts with comes to rest", "[physics]")
+{
+  const Scene scene = load_scene("tower");
+  const auto farthest_sideways = [&](World &world) {
+    double farthest = 0;
+    const std::vector<BodyState> bodies = world.bodies();
+    for (size_t i = 0; i < bodies.size(); ++i)
+      for (const size_t axis : {0, 2})
+        farthest = std::max(farthest, std::abs(double(bodies[i].position[axis]) - scene.bodies[i].position[axis]));
+    return farthest;
+  };
+  World chosen(scene, automatic(), {}), four(scene, settings_with(1.0 / 60), {});
+  run(chosen, 200);
+  run(four, 200);
+  CHECK(chosen.statistics().substeps == 16); /* 17 layers of planks that rest on three: 578 substeps a second */
+  CHECK(farthest_sideways(chosen) < 0.001);
+  CHECK(farthest_sideways(four) > 0.005);
+}
+
+TEST_CASE("automatic substeps: layers that did not stand at the start do not count as a structure", "[physics]")
+{
+  SubstepChoice choice = first_choice(automatic());
+  CHECK(choice.starts);
+  note_start(choice, 17);
+  settle_substeps(choice, 0, automatic());
+  note_start(choice, 30);
+  CHECK(choice.layers_at_start == 17);
+}
+
+TEST_CASE("automatic substeps: layers of large boxes, which sway by little of their size, keep the bits of four",
+          "[physics]")
+{
+  const Scene scene = load_scene("box-grid:nx=4,ny=20,nz=4");
+  World chosen(scene, automatic(), {}), four(scene, settings_with(1.0 / 60), {});
+  run(chosen, 20);
+  run(four, 20);
+  CHECK(chosen.statistics().substeps == 4);
+  CHECK(chosen.body_hash() == four.body_hash());
+}
+
+TEST_CASE("automatic substeps: contacts asked for stiffer than the default get as many as these act with", "[physics]")
+{
+  const auto fewest = [](float hertz) {
+    Settings settings = automatic();
+    settings.contact_hertz = hertz;
+    return first_choice(settings).now;
+  };
+  CHECK(fewest(6) == 4);
+  CHECK(fewest(60) == 4);
+  CHECK(fewest(600) == 64); /* 50 and more */
+  CHECK(fewest(6000) == 512);
+  CHECK(fewest(600000) == 512); /* no world takes more */
+  Settings stiff = automatic();
+  stiff.contact_hertz = 6000;
+  SubstepChoice choice = first_choice(stiff);
+  raise_substeps(choice, bits_of(1e20f), stiff);
+  CHECK(choice.now == 512);
+  for (int i = 0; i < 600; ++i) settle_substeps(choice, 0, stiff);
+  CHECK(choice.now == 512);
+}
+
+TEST_CASE("automatic substeps: a world that asks for stiff contacts goes on from a snapshot with the same bits",
+          "[physics]")
+{
+  Settings stiff = automatic();
+  stiff.contact_hertz = 1000;
+  World world(column_of({1, 1}), stiff, {});
+  run(world, 5);
+  World restored(world.save(), Placement{});
+  run(world, 5);
+  run(restored, 5);
+  CHECK(world.statistics().substeps == 128);
+  CHECK(restored.state_hash() == world.state_hash());
+}
+
+TEST_CASE("automatic substeps: bodies inside one another part no faster beside a load that wants many", "[physics]")
+{
+  const Scene load = column_of({1, 1000});
+  const auto parted_in_a_step = [&](const Settings &settings) {
+    Scene scene = load;
+    Body cube = scene.bodies[1];
+    for (const double x : {5.0, 5.98}) { /* 2 cm inside one another */
+      cube.position = {x, 0.5, 0};
+      scene.bodies.push_back(cube);
+    }
+    World world(scene, settings, {});
+    world.step();
+    return world.bodies()[4].position[0] - world.bodies()[3].position[0] - 0.98;
+  };
+  const double with_four = parted_in_a_step(settings_with(1.0 / 60));
+  Settings as_stiff = settings_with(1.0 / 60, 16);
+  as_stiff.contact_hertz = 192;
+  CHECK(with_four > 0.001);
+  CHECK(parted_in_a_step(as_stiff) > 2 * with_four);
+  CHECK(parted_in_a_step(automatic()) < 1.1 * with_four);
+}
+
+TEST_CASE("automatic substeps: a top sinks no deeper than it falls while it turns by a radian", "[physics]")
+{
+  const Scene scene = load_scene("tops"); /* 100 rad/s */
+  const auto deepest = [&](uint32_t substeps) {
+    World world(scene, settings_with(1e-3, substeps), {});
+    double depth = 0;
+    for (int step = 0; step < 1000; ++step) {
+      world.step();
+      depth = std::max(depth, double{world.statistics().max_penetration});
+    }
+    return depth;
+  };
+  CHECK(deepest(4) > 2e-3);
+  CHECK(deepest(automatic_substeps) < 1.5 * 10 / (2 * 100.0 * 100.0)); /* under its weight a little deeper */
 }
 
 TEST_CASE("automatic substeps are refused to solvers that do not choose", "[physics]")

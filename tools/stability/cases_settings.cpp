@@ -123,6 +123,7 @@ Case clamped_case(double hertz)
           "as there",
           [hertz](Length length) {
             Trial trial = pressed_trial(hertz, Settings{}.substeps, length);
+            trial.keeps_substeps = true;
             const double limit = stiffest(trial.settings);
             const float just_above = std::nextafter(float(limit), HUGE_VALF);
             trial.checks.push_back(
@@ -164,7 +165,7 @@ Case passes_case(const std::string &name, const std::string &what, uint32_t subs
                       depth ? fmt::format("{:.3g} m", *depth) : "rounding"),
           [=](Length length) {
             Trial trial = trial_of(column_of(equal(height)), steps_for(length, steps, steps));
-            trial.own_passes = true;
+            trial.own_passes = trial.keeps_substeps = true;
             trial.settings.substeps = substeps;
             trial.settings.iterations = iterations;
             if (length == Length::brief) trial.settings.iterations = std::min(iterations, 5u);

@@ -62,7 +62,7 @@ Case with_automatic_substeps(const Case &given)
   Case automatic = given;
   automatic.build = [given](Length length) {
     stability::Trial trial = given.build(length);
-    if (!trial.own_passes) trial.settings.substeps = automatic_substeps;
+    if (!trial.keeps_substeps) trial.settings.substeps = automatic_substeps;
     trial.own_passes = true;
     return trial;
   };

@@ -66,6 +66,7 @@ struct Trial {
   std::string documented_solver;      /* or this solver with its own defaults, tried if the default solver fails */
   bool own_passes =
       false; /* the case is about substeps and iterations, so a solver's own defaults do not replace them */
+  bool keeps_substeps = false; /* the case is about this number of substeps, so no world chooses another */
   uint64_t steps = 600;
   uint64_t every = 1;        /* steps between two observed moments; the last step is always observed */
   std::vector<Check> checks; /* the first is the case's figure */
