@@ -25,12 +25,12 @@ TEST_CASE("bench floors: a launch moves each row of its items once, and what it 
   CHECK(least_bytes(world, copy) == 2 * 4 * pairs);
   const Launch fill{Kernel::fill, {Buffer::pair_color}, {0}, COUNT_ZERO, COUNT_PAIRS, 0};
   CHECK(least_bytes(world, fill) == 4 * pairs);
-  /* Of a constraint: pair, a, b; normal, 4 + 4 arms, 2 centres, slop; the impulses of both kinds, twice; of 2 bodies:
-   * velocity twice, inertia, motion, the impulse of the next warm start twice. */
+  /* Of a constraint: a, b; normal, 4 points of 5 numbers, centre, offset, slop; the impulses of both kinds, twice; of 2
+   * bodies: velocity twice, motion, the impulse of the next warm start twice. Cubes have no tensors. */
   const uint64_t constraints = counts[COLOR_START + 1] - counts[COLOR_START];
   REQUIRE(constraints > 5);
   REQUIRE(2 * constraints < bodies);
-  const uint64_t each = 2 * 4 + 16 + 8 * 16 + 2 * 16 + 4 + 2 * (16 + 16) + 2 * 32 * (2 + 1 + 1 + 2);
+  const uint64_t each = 2 * 4 + 16 + 4 * 5 * 4 + 2 * 16 + 4 + 2 * (16 + 16) + 2 * 32 * (2 + 1 + 2);
   const Launch solve{Kernel::solve_contacts, {}, {0}, COLOR_START, COLOR_START + 1, 0};
   const uint64_t tables = least_bytes(world, solve) - constraints * each; /* counts and parameters */
   CHECK(tables < 4096);
