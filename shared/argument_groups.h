@@ -278,6 +278,12 @@ typedef struct {
   BUFFER(constraint_b, uint, b)                                                                                        \
   BUFFER(constraint_normal, float4, normal)
 
+/* Whether a contact was there in the last step, and what it bore. */
+#define GROUP_loads_before(BUFFER)                                                                                     \
+  BUFFER(pair_cached, uint, cached)                                                                                    \
+  BUFFER(constraint_pair, uint, pair)                                                                                  \
+  BUFFER(constraint_normal_impulse, float4, normal_impulse)
+
 /* The pair of each constraint, and the constraint of each pair. */
 #define GROUP_contact_orders(BUFFER)                                                                                   \
   BUFFER(sort_value, uint, pair)                                                                                       \
@@ -382,6 +388,9 @@ typedef struct {
 typedef struct {
   GROUP_contact_orders(READ_MEMBER)
 } read_contact_orders;
+typedef struct {
+  GROUP_loads_before(READ_MEMBER)
+} read_loads_before;
 
 /* --- queries ---------------------------------------------------------------------------------------------- */
 /* The structures of the broadphase that queries search for bodies along a path: the hierarchy, and the boxes and cells

@@ -87,11 +87,13 @@ void PlacedLauncher::launch_in_series(std::span<const uint32_t> known, const std
   known_ = {};
 }
 
-/* An observer sees the effect of each launch before the next one. */
+/* An observer sees the effect of each launch before the next one. Memory is poisoned when a launch is bound, which must
+ * not come before those that still read it have run. */
 bool PlacedLauncher::joins_series(const Launch &launch, const Backend &backend) const
 {
   const uint32_t most = backend.most_items_of_series();
-  if (known_.empty() || most == 0 || observer_ || index_of(launch.kernel) >= kernel_count) return false;
+  if (known_.empty() || most == 0 || observer_ || memory_.poisons() || index_of(launch.kernel) >= kernel_count)
+    return false;
   return row_of(launch.kernel).execution != Execution::host && known_[launch.last] - known_[launch.first] <= most;
 }
 

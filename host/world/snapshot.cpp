@@ -2,6 +2,7 @@
 #include "host/world/snapshot.h"
 
 #include <algorithm>
+#include <bit>
 
 #include <fmt/format.h>
 
@@ -108,7 +109,11 @@ void check_substeps(const ByteReader &reader, const SnapshotContents &contents)
   const SubstepChoice &choice = contents.substeps;
   const SubstepChoice first = first_choice(contents.settings);
   const uint32_t most = choice.automatic ? most_substeps(contents.settings) : first.now;
-  const auto is_allowed = [&](uint32_t substeps) { return substeps >= first.now && substeps <= most; };
+  const auto is_allowed = [&](uint32_t substeps) { /* they are doubled and halved */
+                                                   return substeps >= first.now && substeps <= most &&
+                                                          substeps % first.now == 0 &&
+                                                          std::has_single_bit(substeps / first.now);
+  };
   if (choice.automatic != first.automatic || !is_allowed(choice.now) || !is_allowed(choice.of_cache))
     reader.fail(fmt::format("{} substeps after {}, of a world that takes {} to {}", choice.now, choice.of_cache,
                             first.now, most));

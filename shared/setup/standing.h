@@ -154,18 +154,16 @@ SHARED void note_braced(GLOBAL const Parameters *parameters, uint layers, uint l
 /* standing_above: of the pass before, or of the last step. standing: is 0 before. layers_at_start: COUNT_BRACED_LAYERS
  * of the first step of the world, INDEX_NONE in that step. */
 SHARED void weigh_standing_item(GLOBAL const Parameters *parameters, GLOBAL const float4 *body_shape,
-                                GLOBAL const float4 *solver_velocity, GLOBAL const uint *pair_cached,
-                                GLOBAL const uint *constraint_pair, read_contacts contacts,
-                                GLOBAL const memory_real *constraint_points,
-                                GLOBAL const float4 *constraint_normal_impulse, GLOBAL const uint *body_supports,
-                                GLOBAL const uint *standing_above, GLOBAL uint *standing, GLOBAL uint *counts,
-                                uint layers_at_start, uint i)
+                                GLOBAL const float4 *solver_velocity, read_contacts contacts,
+                                read_loads_before loads_before, GLOBAL const memory_real *constraint_points,
+                                GLOBAL const uint *body_supports, GLOBAL const uint *standing_above,
+                                GLOBAL uint *standing, GLOBAL uint *counts, uint layers_at_start, uint i)
 {
   if (!(parameters->gravity_length > R(0.0))) return;
   standing_pair p = standing_pair_of(parameters, contacts, solver_velocity, i);
-  real borne = force_borne(parameters, constraint_normal_impulse, i);
+  real borne = force_borne(parameters, loads_before.normal_impulse, i);
   if (stands(parameters, &p, borne, constraint_points, planes_of(counts), i) == 0u) return;
-  uint is_new = pair_cached[constraint_pair[i]] == INDEX_NONE ? 1u : 0u;
+  uint is_new = loads_before.cached[loads_before.pair[i]] == INDEX_NONE ? 1u : 0u;
   uint layers = standing_above[2u * p.upper] + 1u;
   real weight = R(1.0) / p.inverse_mass_upper + BITS_FLOAT(standing_above[2u * p.upper + 1u]);
   if (borne > R(0.0)) weight = minimum(weight, PASSED_ON * borne / parameters->gravity_length);

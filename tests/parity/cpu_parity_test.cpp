@@ -87,7 +87,8 @@ TEST_CASE("parity on CPU: every broadphase")
     Settings settings;
     settings.broadphase = broadphase;
     require_parity("mixed:n=60", backends, 30, settings);
-    require_parity("box-grid:nx=11,ny=10,nz=11", backends, 3, settings); /* more bodies than a tile has items */
+    require_parity("box-grid:nx=12,ny=10,nz=11", backends, 3, settings); /* more bodies than a tile has items,
+                                                                              set up by pair */
   }
 }
 

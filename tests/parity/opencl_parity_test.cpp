@@ -42,7 +42,7 @@ TEST_CASE("parity on OpenCL: every broadphase")
     settings.bounds = Bounds::tight;
     settings.pair_events = true;
     require_parity("mixed:n=60", {"serial", "cl:pocl"}, 10, settings);
-    require_parity("box-grid:nx=11,ny=10,nz=11", {"serial", "cl:pocl"}, 3, settings);
+    require_parity("box-grid:nx=12,ny=10,nz=11", {"serial", "cl:pocl"}, 3, settings);
   }
 }
 

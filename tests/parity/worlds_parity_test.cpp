@@ -52,6 +52,23 @@ TEST_CASE("parity on CPU: worlds of a batch have the bits of worlds alone")
   require_worlds_alone("tbb:threads=3,lanes=1", 3, 5);
 }
 
+/* So many pairs, of which most touch, are set up in their own order, and those of one world in that of constraints. */
+TEST_CASE("parity on CPU: set-up by pair has the bits of set-up by constraint")
+{
+  for (const std::string backend : {"serial", "tbb:threads=2"}) {
+    CAPTURE(backend);
+    tests::BatchBesideWorlds worlds(tests::seeded_scenes("mixed:n=60", 64), backend);
+    worlds.step(100);
+    uint32_t pairs = 0, touching = 0;
+    for (const std::unique_ptr<World> &world : worlds.alone) {
+      pairs += world->statistics().pairs;
+      touching += world->statistics().manifolds;
+    }
+    CHECK(pairs > 4096);
+    CHECK(2 * touching > pairs);
+  }
+}
+
 TEST_CASE("parity with PoCL: worlds of a batch have the bits of worlds alone")
 {
   require_pocl();

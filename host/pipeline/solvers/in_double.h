@@ -1,5 +1,5 @@
-/* in_double.h - the shared headers of contacts in double, so that the stage solve_islands has exactly the rows of the
- * iterative solver. */
+/* in_double.h - the shared headers of contacts in double, so that the stage solve_islands has the rows of the iterative
+ * solver, but for rounding: arms of b, for example, are differences that only the latter rounds to floats. */
 #pragma once
 
 #include <cstddef>
