@@ -127,8 +127,8 @@ public:
   /* Nothing reads what the buffer holds until it is written again, so that it need not move. */
   void forget_contents(Buffer buffer) { entries_[index_of(buffer)].forgotten = true; }
   const Moves &moves() const { return moves_; }
-  /* Another number after each call that may have written the buffer, and never that of another buffer of any memory, but
-   * 0 for all that nobody has written. So the host need not read again what it has read. */
+  /* Another number after each call that may have written the buffer, and never that of another buffer of any memory,
+   * but 0 for all that nobody has written. So the host need not read again what it has read. */
   uint64_t version(Buffer buffer) const { return entries_[index_of(buffer)].version; }
   UsedPart whole(Buffer buffer) const { return {bytes(buffer), 1}; }
 

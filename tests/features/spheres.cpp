@@ -175,7 +175,9 @@ TEST_CASE("a world that is refused a feature goes on as if it had not been asked
       const BodyId body = asked.id_of(3);
       const BodyProperties properties = locked();
       CHECK_THROWS_WITH(asked.set_properties(std::span(&body, 1), std::span(&properties, 1)),
-                        ContainsSubstring("body 3 needs LOCKS (a moving body with locked axes)"));
+                        ContainsSubstring("body 3 needs GYROSCOPIC (a moving body whose principal moments differ, or "
+                                          "with locked axes)") &&
+                            ContainsSubstring("GYROSCOPIC;LOCKS"));
       Body trigger = body_at({0, 50, 0}, scene.bodies[3].shape);
       trigger.trigger = true;
       CHECK_THROWS_AS(asked.create_bodies(std::span(&trigger, 1)), InputError);
@@ -213,7 +215,7 @@ TEST_CASE("a batch that is refused a feature goes on as if it had not been asked
   for (int step = 0; step < 20; ++step) {
     if (step == 8)
       CHECK_THROWS_WITH(asked.set_properties(std::span(&body, 1), std::span(&properties, 1)),
-                        ContainsSubstring("needs LOCKS"));
+                        ContainsSubstring("needs GYROSCOPIC"));
     if (step == 12)
       for (Worlds *worlds : {&asked, &left_alone}) worlds->reset(std::span(&world, 1));
     asked.step();
