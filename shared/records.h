@@ -150,11 +150,14 @@ SHARED void store_velocity_if(mask wanted, GLOBAL float4 *velocity, uint_lanes b
 
 SHARED vec3 velocity_at(spatial_velocity m, vec3 arm) { return add(m.linear, cross3(m.angular, arm)); }
 
-SHARED symmetric3 load_tensor(GLOBAL const float4 *inertia, uint_lanes body)
+SHARED symmetric3 tensor_of_float4s(vec4 first, vec4 second)
 {
-  vec4 first = load_float4(inertia, body * 2u), second = load_float4(inertia, body * 2u + 1u);
   symmetric3 s = {first.x, first.y, first.z, first.w, second.x, second.y};
   return s;
+}
+SHARED symmetric3 load_tensor(GLOBAL const float4 *inertia, uint_lanes body)
+{
+  return tensor_of_float4s(load_float4(inertia, body * 2u), load_float4(inertia, body * 2u + 1u));
 }
 /* The inverse inertia of a body in world axes. Where the principal moments of every body are equal, it is one number,
  * which stands beside the velocity, and the scene has no rows of tensors. The zeros come from memory: a compiler that
@@ -166,8 +169,9 @@ SHARED symmetric3 load_inertia_and_locks(GLOBAL const Parameters *parameters, GL
   real zero = (real)parameters->zero;
   *locks = R(0.0);
   if (HAS_FEATURE(parameters, GYROSCOPIC)) {
-    if (MAY_OCCUR(LOCKS)) *locks = load_float4(inertia, body * 2u + 1u).z;
-    return load_tensor(inertia, body);
+    vec4 second = load_float4(inertia, body * 2u + 1u);
+    if (MAY_OCCUR(LOCKS)) *locks = second.z;
+    return tensor_of_float4s(load_float4(inertia, body * 2u), second);
   } else {
     symmetric3 s = {m.inverse_inertia, m.inverse_inertia, m.inverse_inertia, zero, zero, zero};
     return s;

@@ -171,7 +171,7 @@ private:
   std::vector<uint32_t> a_, b_;
   std::vector<double> velocity_, delta_, normal_, normal_impulse_, friction_impulse_;
   std::vector<double> center_, offset_;
-  std::array<std::vector<double>, 20> points_;
+  std::array<std::vector<double>, 4 * POINT_NUMBERS> points_;
   std::array<std::vector<double>, 2> restitution_;
 };
 
