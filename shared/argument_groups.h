@@ -82,6 +82,12 @@ typedef struct {
   BUFFER(solver_delta_pose, float4, delta)                                                                             \
   BUFFER(solver_orientation, float4, orientation)
 
+/* The bodies of joints: with orientations, because arms and frames turn with them. */
+#define GROUP_turning_bodies(BUFFER)                                                                                   \
+  BUFFER(solver_inertia, float4, inertia)                                                                              \
+  BUFFER(solver_delta_pose, float4, delta)                                                                             \
+  BUFFER(solver_orientation, float4, orientation)
+
 /* What the colouring of contacts notes at their bodies. */
 #define GROUP_colored_bodies(BUFFER)                                                                                   \
   BUFFER(body_colors, uint, colors)                                                                                    \
@@ -105,6 +111,9 @@ typedef struct {
 typedef struct {
   GROUP_solver_bodies(READ_MEMBER)
 } read_solver_bodies;
+typedef struct {
+  GROUP_turning_bodies(READ_MEMBER)
+} read_turning_bodies;
 typedef struct {
   GROUP_blocks(READ_MEMBER)
 } read_blocks;
@@ -391,6 +400,48 @@ typedef struct {
 typedef struct {
   GROUP_loads_before(READ_MEMBER)
 } read_loads_before;
+
+/* --- joints, in the order of their colours ------------------------------------------------------------------ */
+#define GROUP_joints(BUFFER)                                                                                           \
+  BUFFER(joint_a, uint, a)                                                                                             \
+  BUFFER(joint_b, uint, b)                                                                                             \
+  BUFFER(joint_modes, uint, modes)                                                                                     \
+  BUFFER(joint_arm_a, float4, arm_a)                                                                                   \
+  BUFFER(joint_arm_b, float4, arm_b)                                                                                   \
+  BUFFER(joint_frame_a, float4, frame_a)                                                                               \
+  BUFFER(joint_frame_b, float4, frame_b)                                                                               \
+  BUFFER(joint_offset, float4, offset)
+
+#define GROUP_joint_places(BUFFER)                                                                                     \
+  BUFFER(body_position, float4, position)                                                                              \
+  BUFFER(joint_world_frame, float4, world_frame)
+
+#define GROUP_joint_impulses(BUFFER)                                                                                   \
+  BUFFER(joint_linear_impulse, float4, linear)                                                                         \
+  BUFFER(joint_angular_impulse, float4, angular)
+
+#define GROUP_cached_joint_impulses(BUFFER)                                                                            \
+  BUFFER(cached_joint_linear_impulse, float4, linear)                                                                  \
+  BUFFER(cached_joint_angular_impulse, float4, angular)
+
+typedef struct {
+  GROUP_joints(READ_MEMBER)
+} read_joints;
+typedef struct {
+  GROUP_joint_places(READ_MEMBER)
+} read_joint_places;
+typedef struct {
+  GROUP_joint_impulses(READ_MEMBER)
+} read_joint_impulses;
+typedef struct {
+  GROUP_joint_impulses(WRITE_MEMBER)
+} write_joint_impulses;
+typedef struct {
+  GROUP_cached_joint_impulses(READ_MEMBER)
+} read_cached_joint_impulses;
+typedef struct {
+  GROUP_cached_joint_impulses(WRITE_MEMBER)
+} write_cached_joint_impulses;
 
 /* --- queries ---------------------------------------------------------------------------------------------- */
 /* The structures of the broadphase that queries search for bodies along a path: the hierarchy, and the boxes and cells

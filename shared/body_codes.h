@@ -1,6 +1,6 @@
 /* body_codes.h - the codes stored in body_flags and body_convex, and the codes of methods, for kernels and the host.
  *
- * body_flags: bits 0-2 shape, 3-4 motion, 5 trigger, 8-27 material, 30 continuous collision.
+ * body_flags: bits 0-2 shape, 3-4 motion, 5 trigger, 6 joined pairs, 8-27 material, 30 continuous collision.
  */
 #ifndef TANDEM_SHARED_BODY_CODES_H
 #define TANDEM_SHARED_BODY_CODES_H
@@ -32,6 +32,8 @@ enum { LOCK_X = 1, LOCK_Y = 2, LOCK_Z = 4, LOCK_ANGULAR_SHIFT = 3 };
 
 /* A trigger is found and reported in its pairs, and is never solved. */
 enum { BODY_FLAG_TRIGGER = 1 << 5 };
+/* Some joint keeps the body from colliding with another: broadphase/joined_pairs.h. */
+enum { BODY_FLAG_JOINED = 1 << 6 };
 /* The body collides along its path through the step: narrowphase/conservative_advancement.h. */
 #define BODY_FLAG_CONTINUOUS (1u << 30u)
 #define MOST_MATERIALS (1u << 20u)

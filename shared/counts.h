@@ -58,6 +58,8 @@ enum {
   COUNT_COMMIT_BODIES_PLUS_ONE,
   COUNT_COMMIT_PAIRS,
   COUNT_COMMIT_CONSTRAINTS,
+  COUNT_JOINTS,        /* set by the host */
+  COUNT_COMMIT_JOINTS, /* these, as the other ranges of the commit */
   COUNT_GRID_X, /* cells of the uniform grid along each axis */
   COUNT_GRID_Y,
   COUNT_GRID_Z,
@@ -118,7 +120,9 @@ enum {
   /* In a batch of worlds: of each colour, the first constraint of a world that has overflow constraints
    * (batching/world_order.h). */
   WORLD_COLOR_START = COLOR_START + COLOR_ENTRIES,
-  COUNT_TOTAL = WORLD_COLOR_START + (int)COLOR_LIMIT
+  /* The ranges of the joints sorted by colour, stored as those of COLOR_START; set by the host. */
+  JOINT_COLOR_START = WORLD_COLOR_START + (int)COLOR_LIMIT,
+  COUNT_TOTAL = JOINT_COLOR_START + COLOR_ENTRIES
 };
 
 enum {

@@ -17,6 +17,7 @@
 #include "shared/commands/kernels.h"
 #include "shared/setup/kernels.h"
 #include "shared/batching/kernels.h"
+#include "shared/joints/kernels.h"
 #include "shared/solve/kernels.h"
 #include "shared/integrate/kernels.h"
 #include "shared/forces/kernels.h"

@@ -38,8 +38,13 @@ typedef struct {
   PARAMETER_REAL gravity_length;       /* m/s^2 */
   PARAMETER_REAL sleep_speed;          /* m/s, bodies of a metre and more rest below it */
   PARAMETER_REAL zero;                 /* 0, of which no compiler knows: docs/exactness.md, rusticl */
-  PARAMETER_REAL unused;               /* for an even number */
-  uint sleep_steps; /* of rest, before a body may fall asleep */
+  PARAMETER_REAL joint_bias_rate;      /* 1/s, soft joint: gaps are closed at this rate; the three as for contacts */
+  PARAMETER_REAL joint_mass_scale;
+  PARAMETER_REAL joint_impulse_scale;
+  uint sleep_steps;        /* of rest, before a body may fall asleep */
+  uint joined_pairs_first; /* the first entry of body_filter that holds pairs of bodies that do not collide */
+  uint joined_pairs_mask;  /* their number, a power of two, minus 1: broadphase/joined_pairs.h */
+  uint unused;
   ulong features;   /* a bit for each row of features.def; an even number of reals stands before */
 } Parameters;
 #endif

@@ -50,6 +50,8 @@ size_t items_of(Capacity capacity, const Sizes &sizes)
   case Capacity::MESH_VERTICES: return sizes.trees.vertices;
   case Capacity::MESH_TRIANGLES: return sizes.trees.triangles;
   case Capacity::SHAPES: return size_t{sizes.bodies} + sizes.trees.children;
+  case Capacity::FILTERS: return size_t{sizes.bodies} + sizes.trees.children + sizes.joined_pairs;
+  case Capacity::JOINTS: return sizes.joints;
   case Capacity::HULL_CHUNKS: return sizes.hulls.chunk_float4s;
   case Capacity::HULL_LINKS: return sizes.hulls.links;
   case Capacity::BODIES: return sizes.bodies;
@@ -106,6 +108,8 @@ uint32_t elements_of_item(Buffer buffer, Features features)
   if (ends_in_friction && (features & FEATURE_FRICTION) == 0) return elements - 1;
   return has_planes ? elements / most_points_of_pair * points_of_pair(features) : elements;
 }
+
+uint32_t first_joined_pair(const Sizes &sizes) { return 2 * (sizes.bodies + sizes.trees.children); }
 
 uint32_t leaves_for(uint32_t bodies) { return std::bit_ceil(std::max(bodies, 1u)); }
 

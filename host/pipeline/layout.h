@@ -17,6 +17,8 @@ struct Sizes {
   uint32_t materials = 0;
   HullSizes hulls;
   TreeSizes trees;
+  uint32_t joints = 0;
+  uint32_t joined_pairs = 0; /* entries of their table */
   uint32_t pairs = 0;      /* capacity */
   uint32_t cells = 0;      /* capacity */
   uint32_t candidates = 0; /* capacity; 0 without the broadphase trees */
@@ -33,6 +35,9 @@ void check_size(Buffer buffer, const Sizes &sizes);
 uint32_t points_of_pair(Features features);
 /* Elements of a buffer for each of its items; buffers.def counts the planes of all points that a pair can have. */
 uint32_t elements_of_item(Buffer buffer, Features features);
+
+/* The element of body_filter at which the table of joined pairs begins. */
+uint32_t first_joined_pair(const Sizes &sizes);
 
 /* The number of leaves of a hierarchy of so many bodies, a power of two. */
 uint32_t leaves_for(uint32_t bodies);

@@ -34,6 +34,14 @@ std::vector<std::pair<int, uint32_t>> entries_of(const SceneCounts &scene)
           {COUNT_BATCH_ITEMS, TILE * batch_cells_for(scene.bodies)}};
 }
 
+std::vector<std::pair<int, uint32_t>> joint_entries_of(std::span<const uint32_t> starts)
+{
+  std::vector<std::pair<int, uint32_t>> entries{{COUNT_JOINTS, starts.back()}};
+  for (size_t color = 0; color < starts.size(); ++color)
+    entries.emplace_back(JOINT_COLOR_START + static_cast<int>(color), starts[color]);
+  return entries;
+}
+
 void set_count(Memory &memory, uint32_t entry, uint32_t value)
 {
   memory.upload(Buffer::counts, &value, sizeof value, entry * sizeof value);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -19,7 +20,9 @@ struct SceneCounts {
 
 /* The entries of shared/counts.h with their values. */
 std::vector<std::pair<int, uint32_t>> entries_of(const SceneCounts &scene);
-/* Whether an entry is one of those. */
+/* The entries of joints. starts: of each colour, of the overflow joints, and the end (host/scene/joint_graph.h). */
+std::vector<std::pair<int, uint32_t>> joint_entries_of(std::span<const uint32_t> starts);
+/* Whether an entry is one of the scene's. */
 bool is_told_by_scene(uint32_t entry);
 void set_count(Memory &memory, uint32_t entry, uint32_t value);
 /* Sets COUNT_LENGTH, by which launches run over a list that the host has made. */

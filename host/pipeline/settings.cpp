@@ -198,6 +198,8 @@ void validate(const Settings &settings)
   check_extensions(settings.extensions);
   check_number("contact stiffness", settings.contact_hertz, "Hz", false);
   check_number("contact damping ratio", settings.contact_damping_ratio, "(no unit)", true);
+  check_number("joint stiffness", settings.joint_hertz, "Hz", false);
+  check_number("joint damping ratio", settings.joint_damping_ratio, "(no unit)", true);
   check_number("push speed", settings.push_speed, "m/s", true);
   check_number("slop", settings.slop, "m", true);
   check_number("slop share", settings.slop_share, "(no unit)", true);

@@ -39,6 +39,7 @@ public:
     if (plan().sleepers && plan().other_sleepers) list_sleepers(*this);
     run(Kernel::prepare_bodies);
     if (has(FEATURE_LOCKS)) run(Kernel::lock_bodies);
+    if (has(FEATURE_JOINTS)) take_joint_colors();
     run_extensions(StepPoint::begin);
     find_pairs();
     if (plan().apart) expect_no_pairs();
@@ -48,6 +49,7 @@ public:
       count_supports();
       weigh_standing();
     }
+    if (has(FEATURE_JOINTS)) run(Kernel::prepare_joints);
     run_extensions(StepPoint::constraints);
     row_of(settings().solver).launch(*this);
     if (has(FEATURE_CONTINUOUS)) keep_out_of_walls();
@@ -60,6 +62,11 @@ private:
   /* Every pair counts as one that has no colour yet, so that a step with pairs runs again. What the last step, which
    * had none, left of lists and colours is still right. */
   void expect_no_pairs() { run(Kernel::compact_total, {COUNT_BODIES, COUNT_UNCOLORED}, {Buffer::pair_start}); }
+
+  void take_joint_colors()
+  {
+    run_range(Kernel::copy, COUNT_ZERO, COUNT_HALVES, {}, {Buffer::body_joint_colors, Buffer::body_colors});
+  }
 
   void find_constraints()
   {
@@ -236,6 +243,7 @@ private:
       run(Kernel::clear_cached, {1}, {Buffer::cached_rolling_impulse});
       run(Kernel::cache_rolling);
     }
+    if (has(FEATURE_JOINTS)) run(Kernel::cache_joints);
     if (const auto keep = row_of(settings().solver).commit) keep(*this);
     run_extensions(StepPoint::commit);
   }

@@ -45,12 +45,25 @@ void StepLaunches::run_pairs(Kernel kernel, uint32_t first_kind, uint32_t last_k
   launcher_.launch({kernel, {}, values, first, last, expected});
 }
 
+void StepLaunches::launch_color(Kernel kernel, uint32_t color, const Values &values)
+{
+  const uint32_t first = COLOR_START + color, end = first + 1, begins = limited_ ? WORLD_COLOR_START + color : first;
+  launcher_.launch({kernel, {}, values, begins, end, plan_.known[end] - plan_.known[first]});
+}
+
 void StepLaunches::for_each_color(Kernel kernel, const Values &values)
 {
-  for (uint32_t color = 0; color < std::min(plan_.colors, COLOR_LIMIT); ++color) {
-    const uint32_t first = COLOR_START + color, end = first + 1, begins = limited_ ? WORLD_COLOR_START + color : first;
-    launcher_.launch({kernel, {}, values, begins, end, plan_.known[end] - plan_.known[first]});
+  for (uint32_t color = 0; color < std::min(plan_.colors, COLOR_LIMIT); ++color) launch_color(kernel, color, values);
+}
+
+void StepLaunches::for_each_color_with_joints(Kernel joints, Kernel overflow_joints, Kernel constraints,
+                                              const Values &values)
+{
+  for (uint32_t color = 0; color < std::min(std::max(plan_.colors, plan_.joint_colors), COLOR_LIMIT); ++color) {
+    if (color < plan_.joint_colors) run_range(joints, JOINT_COLOR_START + color, JOINT_COLOR_START + color + 1, values);
+    if (color < plan_.colors) launch_color(constraints, color, values);
   }
+  if (plan_.joint_colors > COLOR_LIMIT) run(overflow_joints, values);
 }
 
 void StepLaunches::for_each_color(Kernel kernel, Kernel overflow, const Values &values)

@@ -35,6 +35,9 @@ public:
   /* Launches a kernel once for each colour of constraints; constraints without a colour are left to
    * host/pipeline/solvers/mass_split.h. */
   void for_each_color(Kernel kernel, const Values &values = {});
+  /* Launches a kernel of joints and one of constraints once for each colour, joints first, and behind all colours the
+   * kernel of the overflow joints. Both take the same values. A scene without joints has those of constraints alone. */
+  void for_each_color_with_joints(Kernel joints, Kernel overflow_joints, Kernel constraints, const Values &values = {});
   /* From now on, the colours of a batch of worlds are the constraints of those worlds that have overflow constraints,
    * or all again. */
   void limit_to_worlds_with_overflow(bool limited) { limited_ = limited; }
@@ -55,6 +58,8 @@ public:
   void sort(Buffer keys, Buffer values, uint32_t length, uint32_t capacity, unsigned first_bit, unsigned last_bit);
 
 private:
+  void launch_color(Kernel kernel, uint32_t color, const Values &values);
+
   Launcher &launcher_;
   const StepPlan &plan_;
   const Settings &settings_;

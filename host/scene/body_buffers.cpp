@@ -10,6 +10,7 @@
 #include "host/base/hash.h"
 #include "host/geometry/shape_mass.h"
 #include "host/scene/hull_buffers.h"
+#include "host/scene/joint_buffers.h"
 #include "host/scene/shape_bounds.h"
 #include "host/scene/specialise.h"
 #include "host/scene/tree_tables.h"
@@ -74,11 +75,11 @@ constexpr uint32_t flags_of_free_slot = uint32_t{BODY_TYPE_QUARANTINED} << 3 | u
 /* The rows of consecutive shapes that depend on properties of their bodies. */
 class PropertyRows {
 public:
-  explicit PropertyRows(const Scene &scene) : scene_(scene) {}
+  explicit PropertyRows(const Scene &scene) : scene_(scene), joined_(joined_bodies(scene)) {}
 
   void add(const PlacedShape &placed, BodyStatus status)
   {
-    const uint32_t flags = flags_of(scene_, placed);
+    const uint32_t flags = flags_of(scene_, placed) | (is_joined(*placed.body) ? uint32_t{BODY_FLAG_JOINED} : 0u);
     flags_.push_back(status == BodyStatus::free          ? flags_of_free_slot
                      : status == BodyStatus::quarantined ? as_absent(flags)
                                                          : flags);
@@ -93,7 +94,13 @@ public:
   }
 
 private:
+  bool is_joined(const Body &body) const
+  {
+    return !joined_.empty() && joined_[static_cast<size_t>(&body - scene_.bodies.data())];
+  }
+
   const Scene &scene_;
+  std::vector<bool> joined_;
   std::vector<uint32_t> flags_, filters_;
 };
 

@@ -70,6 +70,11 @@ Parameters parameters_of(const Scene &scene, const Settings &settings, Features 
   p.static_bias_rate = against_fixed.rate;
   p.static_mass_scale = against_fixed.mass_scale;
   p.static_impulse_scale = against_fixed.impulse_scale;
+  const SoftContact joint =
+      soft_contact(std::min<double>(settings.joint_hertz, 0.25 / h), settings.joint_damping_ratio, h);
+  p.joint_bias_rate = joint.rate;
+  p.joint_mass_scale = joint.mass_scale;
+  p.joint_impulse_scale = joint.impulse_scale;
   p.push_speed = settings.push_speed;
   p.slop = settings.slop;
   p.slop_share = settings.slop_share;

@@ -11,87 +11,13 @@
 #include <tandem/scene.h>
 
 #include "host/base/finite_vector.h"
-#include "host/base/printable.h"
 #include "host/geometry/shape_mass.h"
 #include "host/geometry/triangle_mesh.h"
+#include "host/scene/checker.h"
 #include "shared/body_codes.h"
 
 namespace tandem {
 namespace {
-
-/* Limits that keep the products of the stages finite floats. Squared areas are fourth powers of lengths, as are
- * friction coefficients combined and squared; distances are squared; masses and their inverses are added. */
-constexpr double farthest = 1e18;
-constexpr float most_friction = 1e9f, heaviest = 1e36f, lightest = 1e-36f;
-
-[[noreturn]] void refuse(const std::string &where, const std::string &what, const std::string &why)
-{
-  throw InputError(fmt::format("{}: {}: {}", printable(where), what, why));
-}
-
-std::string label(const char *kind, size_t index, const std::string &name)
-{
-  return name.empty() ? fmt::format("{} {}", kind, index) : fmt::format("{} {} '{}'", kind, index, printable(name));
-}
-
-/* The checks of one thing. The message `where: what: why` is composed only if a check fails. */
-struct Checker {
-  const std::string &where;
-  const char *kind;
-  size_t index;
-  const std::string &name;
-
-  [[noreturn]] void fail(const std::string &why) const { refuse(where, label(kind, index, name), why); }
-
-  template <class Vector> void finite_vector(const char *field, const Vector &v) const
-  {
-    if (!is_finite_vector(v)) fail(fmt::format("{} is {}; three finite numbers are needed", field, vector_text(v)));
-  }
-  void at_least_zero(const char *field, float x) const
-  {
-    if (!(x >= 0) || !std::isfinite(x))
-      fail(fmt::format("{} is {}; a finite number of at least 0 is needed", field, x));
-  }
-  void positive(const char *field, float x) const
-  {
-    if (!(x > 0) || !std::isfinite(x)) fail(fmt::format("{} is {}; a finite number above 0 is needed", field, x));
-    /* The solver computes 1/x, which must not overflow. */
-    if (!std::isfinite(1.0f / x)) fail(fmt::format("{} is {}, too small: its inverse is not a finite float", field, x));
-  }
-  void speed(const char *field, float x) const
-  {
-    if (!(x > 0)) fail(fmt::format("{} is {}; a number above 0 is needed, or infinity for none", field, x));
-  }
-  template <class Real> void at_most(const char *field, Real x, Real limit) const
-  {
-    if (!(std::abs(x) <= limit))
-      fail(fmt::format("{} is {}; at most {} is possible, so that what is computed from it stays a float", field, x,
-                       limit));
-  }
-  template <class Vector> void within(const char *field, const Vector &v, double limit) const
-  {
-    finite_vector(field, v);
-    for (auto x : v) at_most(field, x, decltype(x)(limit));
-  }
-  void length(const char *field, float x) const
-  {
-    positive(field, x);
-    at_most(field, x, longest_length);
-  }
-  void mass(const char *field, float x) const
-  {
-    positive(field, x);
-    at_most(field, x, heaviest);
-    if (x < lightest)
-      fail(fmt::format("{} is {}; at least {} is needed, so that its inverse can be added to others", field, x,
-                       lightest));
-  }
-  void friction(const char *field, float x) const
-  {
-    at_least_zero(field, x);
-    at_most(field, x, most_friction);
-  }
-};
 
 /* The sides of a capsule, the common tangent of the two spheres, exist only if neither sphere contains the other. */
 void check_capsule(const Shape &shape, const Checker &check)
@@ -124,15 +50,6 @@ void check_hull(const Shape &shape, const Checker &check)
 
 void check_shape(const Shape &shape, const Checker &check);
 
-void check_unit(const char *field, const Quat &q, const Checker &check)
-{
-  double length_squared = 0;
-  for (float x : q) length_squared += double(x) * x;
-  if (!(std::abs(length_squared - 1.0) < 2e-3)) /* also true for NaN */
-    check.fail(
-        fmt::format("{} is [{}, {}, {}, {}]; a quaternion of length 1 is needed", field, q[0], q[1], q[2], q[3]));
-}
-
 void check_child(const Child &child, const Checker &check)
 {
   if (child.shape.type == ShapeType::half_space || child.shape.type == ShapeType::compound)
@@ -140,7 +57,7 @@ void check_child(const Child &child, const Checker &check)
                "children one by one");
   check_shape(child.shape, check);
   check.within("position", child.position, longest_length);
-  check_unit("orientation", child.orientation, check);
+  check.unit("orientation", child.orientation);
   check.positive("density", child.density);
 }
 
@@ -190,9 +107,9 @@ void check_material(const Material &material, const Checker &check)
 void check_pose(const Body &body, const Checker &check)
 {
   check.within("position", body.position, farthest);
-  check_unit("orientation", body.orientation, check);
+  check.unit("orientation", body.orientation);
   check.within("shape_position", body.shape_position, longest_length);
-  check_unit("shape_orientation", body.shape_orientation, check);
+  check.unit("shape_orientation", body.shape_orientation);
   check.finite_vector("linear_velocity", body.linear_velocity);
   check.finite_vector("angular_velocity", body.angular_velocity);
 }
@@ -308,6 +225,7 @@ void validate(const Scene &scene, const std::string &where)
   for (size_t i = 0; i < scene.shapes.size(); ++i) validate(scene.shapes[i], i, where);
   for (size_t i = 0; i < scene.materials.size(); ++i) validate(scene.materials[i], i, where);
   for (size_t i = 0; i < scene.bodies.size(); ++i) validate(scene, scene.bodies[i], i, where);
+  for (size_t i = 0; i < scene.joints.size(); ++i) validate(scene, scene.joints[i], i, where);
 }
 
 std::vector<std::string> warnings_of(const Scene &scene, const std::string &where)

@@ -465,6 +465,7 @@ std::vector<uint32_t> World::Implementation::distinct_indices(const char *call, 
 void World::Implementation::destroy(std::span<const BodyId> ids)
 {
   distinct_indices("destroy_bodies", ids);
+  refuse_joined("destroy_bodies", "it cannot be destroyed", slots_of("destroy_bodies", ids));
   if (ids.empty()) return;
   settle();
   wake_bodies(slots_of("destroy_bodies", ids), true);

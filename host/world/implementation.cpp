@@ -14,6 +14,7 @@
 #include "host/runtime/interface/module.h"
 #include "host/runtime/recorder.h"
 #include "host/scene/built.h"
+#include "host/scene/joint_buffers.h"
 #include "host/scene/parameters.h"
 #include "host/world/forced_features.h"
 #include "shared/batching/limits.h"
@@ -53,10 +54,11 @@ World::Implementation::Implementation(Beginning beginning, const Placement &plac
       automatic(placement.automatic ? std::make_unique<AutomaticPlacement>(placement) : nullptr),
       backends(shared ? PlacedBackends(*shared, features_run())
                       : PlacedBackends(AutomaticPlacement::first_of(placement), features_run())),
-      buffers(memory, backends), slots(std::move(beginning.slots)),
+      buffers(memory, backends), joint_graph(joint_graph_of(scene)), slots(std::move(beginning.slots)),
       launcher(memory, [this](Kernel kernel) -> Backend & { return backends.of(kernel); }), parts(memory)
 {
   check_built(scene_features, scene, settings, scene.name);
+  check_joints(settings, scene);
   launcher.set_on_commit([this] { turn(); });
   plan.forces = beginning.forces || module_applies_forces();
   plan.sleeping = settings.sleeping;
@@ -66,6 +68,7 @@ World::Implementation::Implementation(Beginning beginning, const Placement &plac
   plan.features = special.features;
   plan.bodies = beginning.room;
   scene_entries = entries_of({special.awake, special.unbounded, special.large, bodies() - special.awake});
+  plan.joint_colors = joint_graph.colors;
   counted_bodies = special.awake;
   plan.capacity_cells = cells_for(plan.bodies);
   plan.capacity_pairs = plan.capacity_candidates = beginning.pairs;
@@ -102,6 +105,8 @@ Sizes World::Implementation::sizes() const
           .materials = static_cast<uint32_t>(scene.materials.size()),
           .hulls = hulls,
           .trees = trees.sizes,
+          .joints = static_cast<uint32_t>(scene.joints.size()),
+          .joined_pairs = joined_pair_entries(scene),
           .pairs = plan.capacity_pairs,
           .cells = plan.capacity_cells,
           .candidates = settings.broadphase == Broadphase::trees ? plan.capacity_candidates : 0,
@@ -243,6 +248,8 @@ Parameters World::Implementation::parameters_now() const
   Parameters parameters = parameters_of(scene, settings_in_use, special.features, special.median);
   const float before = plan.substeps.of_cache, now = plan.substeps.now;
   if (plan.substeps.automatic) parameters.warm_start_scale = before / now;
+  parameters.joined_pairs_first = first_joined_pair(sizes());
+  parameters.joined_pairs_mask = std::max(joined_pair_entries(scene), 1u) - 1;
   return parameters;
 }
 
@@ -254,6 +261,7 @@ void World::Implementation::stage_tables(StagedUploads &uploads)
   stage_trees(uploads, scene, trees, special.order, plan.bodies, slots.status());
   trees = {trees.sizes, {}, {}, {}, {}, {}, {}, {}, {}}; /* the buffers hold the rest */
   stage_materials(uploads, scene);
+  stage_joint_tables(uploads);
   uploads.add(Buffer::parameters, std::vector<Parameters>{parameters_now()});
   uploaded_shapes = scene.shapes.size();
   uploaded_materials = scene.materials.size();
@@ -263,6 +271,8 @@ void World::Implementation::stage_tables(StagedUploads &uploads)
 void World::Implementation::stage_counts(StagedUploads &uploads) const
 {
   for (const auto &[entry, value] : scene_entries) uploads.add_count(static_cast<uint32_t>(entry), value);
+  for (const auto &[entry, value] : joint_entries_of(joint_graph.starts))
+    uploads.add_count(static_cast<uint32_t>(entry), value);
   uploads.add_count(CAPACITY_PAIRS, plan.capacity_pairs);
   uploads.add_count(CAPACITY_CELLS, plan.capacity_cells);
   uploads.add_count(CAPACITY_POINTS, points_of_pair(special.features));
@@ -282,6 +292,8 @@ void World::Implementation::guess_counts() noexcept
   known.fill(plan.capacity_pairs);
   known[COUNT_KEPT] = 0;
   for (const auto &[entry, value] : scene_entries) known[entry] = value;
+  for (const auto &[entry, value] : joint_entries_of(joint_graph.starts)) known[entry] = value;
+  known[COUNT_COMMIT_JOINTS] = joint_graph.starts.back();
   known[COUNT_COMMIT_BODIES] = special.awake;
   known[COUNT_COMMIT_BODIES_PLUS_ONE] = special.awake + 1;
   known[COUNT_CELLS_PLUS_ONE] = plan.capacity_cells + 1;

@@ -25,6 +25,7 @@
 #include "host/runtime/recorder.h"
 #include "host/scene/body_buffers.h"
 #include "host/scene/hull_buffers.h"
+#include "host/scene/joint_graph.h"
 #include "host/scene/specialise.h"
 #include "host/scene/tree_tables.h"
 #include "host/world/automatic_placement.h"
@@ -54,6 +55,9 @@ uint64_t room_for(uint64_t needed);
 
 /* Throws InputError if the body has locked axes and the solver holds none. */
 void check_solver(const Settings &settings, const Body &body, size_t index, const std::string &where);
+
+/* Throws InputError if the scene has joints and the settings ask for what has none. */
+void check_joints(const Settings &settings, const Scene &scene);
 
 struct World::Implementation {
   /* What a world begins with: a scene, or what a snapshot holds. */
@@ -214,6 +218,10 @@ struct World::Implementation {
   void write_properties(std::span<const uint32_t> slots);
   void forget_colors(std::span<const uint32_t> freed);
 
+  /* --- joints: joints.cpp ------------------------------------------------------------------------------------------ */
+  void stage_joint_tables(StagedUploads &uploads) const;
+  void refuse_joined(const char *call, const char *why, std::span<const uint32_t> slots) const;
+
   /* --- shapes of bodies that come and go: shapes.cpp -------------------------------------------------------------- */
   std::vector<ShapeId> shapes_of(const BodyId &id);
   std::vector<ShapeId> add_shapes(std::span<const BodyId> ids, std::span<const Child> given);
@@ -303,6 +311,7 @@ struct World::Implementation {
   PlacedBackends backends;
   Memory memory;
   StepBuffers buffers;
+  JointGraph joint_graph;
   BodySlots slots;
   ShapeSlots shapes;
   std::set<uint32_t> made_shapes; /* of the scene, for a body alone */

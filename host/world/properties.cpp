@@ -84,6 +84,14 @@ std::vector<uint32_t> freed_by(const Scene &scene, const ChangedBodies &changed)
   return freed;
 }
 
+std::vector<uint32_t> retyped_by(const Scene &scene, const ChangedBodies &changed)
+{
+  std::vector<uint32_t> retyped;
+  for (size_t i = 0; i < changed.slots.size(); ++i)
+    if (changed.bodies[i].type != scene.bodies[changed.slots[i]].type) retyped.push_back(changed.slots[i]);
+  return retyped;
+}
+
 /* Calls work(first, end) for each range of indices that is written at once. */
 template <class Work> void for_each_range(std::span<const uint32_t> sorted, const Work &work)
 {
@@ -120,6 +128,7 @@ void World::Implementation::set_properties(std::span<const BodyId> ids, std::spa
   std::vector<uint32_t> given;
   for (const BodyId &id : ids) given.push_back(slots.slot_of("set_properties", id));
   const ChangedBodies changed = changed_by(scene, settings, given, properties);
+  refuse_joined("set_properties", "its type cannot change", retyped_by(scene, changed));
   if (ids.empty()) return;
   refuse_unbuilt(changed.slots, changed.bodies); /* before anything wakes */
   settle();                                      /* what was called before comes before */

@@ -50,16 +50,22 @@ template <Is<Body> T, class Visit> auto visit_fields(T &record, const Visit &vis
                max_angular_speed, user_data);
 }
 
+template <Is<Joint> T, class Visit> auto visit_fields(T &record, const Visit &visit)
+{
+  auto &[name, type, body_a, body_b, position_a, position_b, orientation_a, orientation_b, collide] = record;
+  return visit(name, type, body_a, body_b, position_a, position_b, orientation_a, orientation_b, collide);
+}
+
 /* Extensions are functions of the program; snapshots name their modules. */
 template <Is<Settings> T, class Visit> auto visit_fields(T &record, const Visit &visit)
 {
   auto &[step, substeps, iterations, solver, broadphase, bounds, midphase, narrowphase, support, support_cells,
          batching, check, events, pair_events, sleeping, sleep_speed, sleep_time, moved_bodies, max_pairs, specialise,
-         extensions, contact_hertz, contact_damping_ratio, push_speed, slop, slop_share, restitution_speed, hit_speed] =
+         extensions, contact_hertz, contact_damping_ratio, joint_hertz, joint_damping_ratio, push_speed, slop, slop_share, restitution_speed, hit_speed] =
       record;
   return visit(step, substeps, iterations, solver, broadphase, bounds, midphase, narrowphase, support, support_cells,
                batching, check, events, pair_events, sleeping, sleep_speed, sleep_time, moved_bodies, max_pairs,
-               specialise, contact_hertz, contact_damping_ratio, push_speed, slop, slop_share, restitution_speed,
+               specialise, contact_hertz, contact_damping_ratio, joint_hertz, joint_damping_ratio, push_speed, slop, slop_share, restitution_speed,
                hit_speed);
 }
 

@@ -202,23 +202,25 @@ std::vector<Shape> get_shapes(ByteReader &reader)
 
 void put_scene(ByteWriter &writer, const Scene &scene)
 {
-  const auto &[name, gravity, shapes, materials, bodies] = scene;
+  const auto &[name, gravity, shapes, materials, bodies, joints] = scene;
   writer.put(name);
   writer.put(gravity);
   put_shapes(writer, shapes);
   writer.put(materials);
   writer.put(bodies);
+  writer.put(joints);
 }
 
 Scene get_scene(ByteReader &reader)
 {
   Scene scene;
-  auto &[name, gravity, shapes, materials, bodies] = scene;
+  auto &[name, gravity, shapes, materials, bodies, joints] = scene;
   reader.get(name);
   reader.get(gravity);
   shapes = get_shapes(reader);
   reader.get(materials);
   reader.get(bodies);
+  reader.get(joints);
   validate(scene, reader.where());
   return scene;
 }

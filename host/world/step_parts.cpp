@@ -87,7 +87,7 @@ bool has_rows_of_bodies(Buffer buffer)
 bool comes_after_pairs(Stage stage)
 {
   constexpr Stage later[] = {Stage::narrowphase, Stage::batching, Stage::setup,    Stage::forces,
-                             Stage::solve,       Stage::events,   Stage::integrate};
+                             Stage::joints, Stage::solve,       Stage::events,   Stage::integrate};
   return std::find(std::begin(later), std::end(later), stage) != std::end(later);
 }
 

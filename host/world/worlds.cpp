@@ -24,6 +24,9 @@ void check_scenes(std::span<const Scene> scenes, uint32_t copies)
   if (scenes.empty() || copies == 0) throw InputError("worlds: 0 worlds; at least 1 is needed");
   for (size_t k = 0; k < scenes.size(); ++k) {
     validate(scenes[k], scenes[k].name);
+    if (!scenes[k].joints.empty())
+      throw InputError(fmt::format("worlds: scene {} ('{}') has {} joints; the worlds of a batch have none", k,
+                                   scenes[k].name, scenes[k].joints.size()));
     if (scenes[k].bodies.size() != scenes.front().bodies.size())
       throw InputError(
           fmt::format("worlds: scene {} ('{}') has {} bodies and scene 0 has {}; the worlds of a batch have "

@@ -7,6 +7,7 @@
 #define TANDEM_SHARED_BROADPHASE_OVERLAP_H
 
 #include "shared/argument_groups.h"
+#include "shared/broadphase/joined_pairs.h"
 #include "shared/records.h"
 
 typedef struct {
@@ -50,7 +51,15 @@ SHARED int filters_accept(GLOBAL const Parameters *parameters, GLOBAL const uint
          (body_filter[2u * b] & body_filter[2u * a + 1u]) != 0u;
 }
 
-/* A pair is allowed if the bodies can meet, neither is quarantined, and each accepts the other's groups. */
+SHARED int joint_forbids(GLOBAL const Parameters *parameters, GLOBAL const uint *body_filter, uint flags_a,
+                         uint flags_b, uint a, uint b)
+{
+  if (!HAS_FEATURE(parameters, JOINED_PAIRS) || (flags_a & flags_b & (uint)BODY_FLAG_JOINED) == 0u) return 0;
+  return are_joined(parameters, body_filter, a > b ? a : b, a > b ? b : a);
+}
+
+/* A pair is allowed if the bodies can meet, neither is quarantined, no joint forbids it, and each accepts the other's
+ * groups. */
 SHARED int pair_allowed(GLOBAL const Parameters *parameters, GLOBAL const uint *body_flags,
                         GLOBAL const uint *body_filter, uint a, uint b)
 {
@@ -58,7 +67,8 @@ SHARED int pair_allowed(GLOBAL const Parameters *parameters, GLOBAL const uint *
   if (!bodies_meet(parameters, flags_a, flags_b)) return 0;
   if (body_type_of(flags_a) == (uint)BODY_TYPE_QUARANTINED || body_type_of(flags_b) == (uint)BODY_TYPE_QUARANTINED)
     return 0;
-  return filters_accept(parameters, body_filter, a, b);
+  return filters_accept(parameters, body_filter, a, b) &&
+         !joint_forbids(parameters, body_filter, flags_a, flags_b, a, b);
 }
 
 /* Appends a pair to the range of its owner, which starts at pair_start[a], in the order found; sort_range sorts it

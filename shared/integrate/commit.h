@@ -79,6 +79,7 @@ SHARED void finish_step_item(GLOBAL uint *counts, uint colors, uint load_rate, u
   counts[COUNT_COMMIT_BODIES_PLUS_ONE] = whole * counts[COUNT_BODIES_PLUS_ONE];
   counts[COUNT_COMMIT_PAIRS] = whole * counts[COUNT_PAIRS];
   counts[COUNT_COMMIT_CONSTRAINTS] = whole * counts[COUNT_CONSTRAINTS];
+  counts[COUNT_COMMIT_JOINTS] = whole * counts[COUNT_JOINTS];
 }
 
 SHARED void commit_bodies_item(GLOBAL const float4 *solver_velocity, GLOBAL const float4 *solver_delta_pose,

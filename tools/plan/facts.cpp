@@ -32,6 +32,7 @@ const char *what_asks_for(Stage stage)
   case Stage::batching: return "--batching, --check";
   case Stage::setup: return "--substeps auto";
   case Stage::forces: return "forces";
+  case Stage::joints: return "joints";
   case Stage::solve: return "--solver";
   case Stage::sleeping: return "--sleep";
   case Stage::events: return "events";

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <tandem/metrics.h>
 #include <tandem/world.h>
 
 #include "host/base/printable.h"
@@ -147,6 +148,7 @@ struct Outcome {
   uint64_t steps;
   Measurement measurement;
   Statistics statistics;
+  JointErrorSummary joints;
   uint64_t hash, body_hash;
 };
 
@@ -175,6 +177,12 @@ Json outcome_json(const Outcome &outcome, World &world, const Placement &placeme
           {"nonfinite", statistics.nonfinite},
           {"overflow", statistics.overflow},
           {"substeps", statistics.substeps},
+          {"joints", world.scene().joints.size()},
+          {"joint_error",
+           {{"max", outcome.joints.max_distance},
+            {"mean", outcome.joints.mean_distance},
+            {"max_angle", outcome.joints.max_angle},
+            {"mean_angle", outcome.joints.mean_angle}}},
           {"asleep", statistics.asleep},
           {"islands", statistics.sleeping_islands},
           {"memory_bytes", world.memory().total_bytes()},
@@ -217,6 +225,10 @@ std::string facts_table(const Outcome &outcome, World &world, const Placement &p
     table.add({"substeps", fmt::format("{} in the next step", statistics.substeps)});
   table.add({"penetration", fmt::format("{:.3g} mm at most, {:.3g} mm on average", statistics.max_penetration * 1e3,
                                         statistics.mean_penetration * 1e3)});
+  if (const size_t joints = world.scene().joints.size(); joints > 0)
+    table.add({"joints", fmt::format("{}, open by {:.3g} mm and {:.3g} rad at most, {:.3g} mm on average", joints,
+                                     outcome.joints.max_distance * 1e3, outcome.joints.max_angle,
+                                     outcome.joints.mean_distance * 1e3)});
   table.add({"kinetic energy", fmt::format("{:.6g} J", statistics.kinetic_energy)});
   table.add({"memory", bytes_text(world.memory().total_bytes())});
   table.add({"kernels", fmt::format("{}, built in {:.0f} ms", world.kernels().size(), world.build_milliseconds())});
@@ -259,7 +271,7 @@ Outcome simulate(World &world, const RunOptions &options, uint64_t steps)
   std::optional<EventFile> events;
   if (!options.events.empty()) events.emplace(options.events, options.scene.scene_text(), world);
   Progress progress("simulating", steps);
-  Outcome outcome{options.scene.scene_text(), steps, {}, {}, 0, 0};
+  Outcome outcome{options.scene.scene_text(), steps, {}, {}, {}, 0, 0};
   if (trace) trace->begin_step();
   outcome.measurement = measure(world, steps, [&](uint64_t done) {
     if (trace) trace->end_step(done - 1);
@@ -272,6 +284,7 @@ Outcome simulate(World &world, const RunOptions &options, uint64_t steps)
   if (events) events->finish();
   if (trace) write_file("--trace", options.trace, trace->json());
   outcome.statistics = world.statistics();
+  outcome.joints = summary_of(joint_errors(world.scene(), world.precise_bodies()));
   outcome.hash = world.state_hash();
   outcome.body_hash = world.body_hash();
   return outcome;

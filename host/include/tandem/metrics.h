@@ -8,6 +8,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include <tandem/export.h>
@@ -19,6 +20,20 @@ using PreciseBodies = std::vector<PreciseBodyState>; /* in the order of Scene::b
 
 /* The angle between two orientations, 0 .. pi rad; it is accurate for small angles too. */
 TANDEM_API double angle_between(const std::array<double, 4> &one, const std::array<double, 4> &other);
+
+/* How far a joint is open: between the origins of its frames along the directions that it holds, and by the rotations
+ * that it holds. */
+struct JointError {
+  double distance = 0; /* m */
+  double angle = 0;    /* rad */
+};
+TANDEM_API std::vector<JointError> joint_errors(const Scene &scene, const PreciseBodies &states);
+
+struct JointErrorSummary {
+  double max_distance = 0, mean_distance = 0; /* m */
+  double max_angle = 0, mean_angle = 0;       /* rad */
+};
+TANDEM_API JointErrorSummary summary_of(std::span<const JointError> errors);
 
 /* Distances between simulated and true poses over the dynamic bodies, accumulated over any number of moments. */
 class TANDEM_API TrajectoryError {

@@ -9,6 +9,7 @@
 
 #include <cstdint>
 
+#include <tandem/no_body.h>
 #include <tandem/shapes.h>
 
 namespace tandem {
@@ -29,8 +30,6 @@ struct Pose {
   Point position{0, 0, 0};
   Quat orientation{0, 0, 0, 1};
 };
-
-constexpr uint32_t no_body = 0xffffffffu;
 
 struct QueryHit {
   uint32_t body = no_body; /* index into Scene::bodies; the rest is 0 where nothing is hit */

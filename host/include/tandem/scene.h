@@ -1,4 +1,4 @@
-/* scene.h - what a user describes: shapes, materials, bodies, gravity.
+/* scene.h - what a user describes: shapes, materials, bodies, joints, gravity.
  *
  * It is the first stage of the pipeline: loaders (scene files) and generators (built-in scenes) produce a Scene,
  * specialise and World consume it. Nothing here computes physics. Units are SI (metre, kilogram, second, radian),
@@ -13,6 +13,7 @@
 
 #include <tandem/error.h>
 #include <tandem/export.h>
+#include <tandem/joints.h>
 #include <tandem/shapes.h>
 
 namespace tandem {
@@ -83,17 +84,20 @@ struct Scene {
   std::vector<Shape> shapes;
   std::vector<Material> materials{Material{}}; /* at least one */
   std::vector<Body> bodies;
+  std::vector<Joint> joints;
 };
 
-/* Throws InputError that names the first body, shape or material that cannot be simulated: non-finite or non-positive
+/* Throws InputError that names the first body, shape, material or joint that cannot be simulated: non-finite or non-positive
  * sizes and masses, NaN or infinite poses, quaternions that are not of unit length, indices out of range, dynamic
  * half-spaces. `where` prefixes the message (a file name). */
 TANDEM_API void validate(const Scene &scene, const std::string &where);
 
-/* The same of one more body, shape or material of a scene; index: the number that the message names. */
+/* The same of one more body, shape, material or joint of a scene; index: the number that the message names. */
 TANDEM_API void validate(const Scene &scene, const Body &body, size_t index, const std::string &where);
 TANDEM_API void validate(const Shape &shape, size_t index, const std::string &where);
 TANDEM_API void validate(const Material &material, size_t index, const std::string &where);
+
+TANDEM_API void validate(const Scene &scene, const Joint &joint, size_t index, const std::string &where);
 
 /* One line for each body that can be simulated, but probably not as intended: a moving mesh that is not closed has only
  * an estimated volume. */

@@ -25,6 +25,7 @@ constexpr const char *combine_names[] = {"average", "minimum", "maximum", "multi
 
 std::span<const char *const> names_of(BodyType) { return motion_names; }
 std::span<const char *const> names_of(Combine) { return combine_names; }
+std::span<const char *const> names_of(JointType) { return joint_type_names(); }
 
 template <typename Field> void each_field(const Material *, Field &&field)
 {
@@ -65,6 +66,19 @@ template <typename Field> void each_field(const Body *, Field &&field)
   field("max_linear_speed", &Body::max_linear_speed);
   field("max_angular_speed", &Body::max_angular_speed);
   field("user_data", &Body::user_data);
+}
+
+template <typename Field> void each_field(const Joint *, Field &&field)
+{
+  field("name", &Joint::name);
+  field("type", &Joint::type);
+  field("body_a", &Joint::body_a);
+  field("body_b", &Joint::body_b);
+  field("position_a", &Joint::position_a);
+  field("orientation_a", &Joint::orientation_a);
+  field("position_b", &Joint::position_b);
+  field("orientation_b", &Joint::orientation_b);
+  field("collide", &Joint::collide);
 }
 
 /* --- reading --------------------------------------------------------------------------------- */
@@ -205,6 +219,8 @@ template <typename Record> std::string written_record(const Record &record, std:
 std::string written(const Material &material) { return written_record(material, ""); }
 std::string written(const Body &body) { return written_record(body, ""); }
 
+std::string written(const Joint &joint) { return written_record(joint, ""); }
+
 std::string written(const Shape &shape) { return written_shape(shape); }
 
 template <typename Record> void write_list(std::string &text, const char *key, const std::vector<Record> &records)
@@ -218,7 +234,7 @@ template <typename Record> void write_list(std::string &text, const char *key, c
 
 Scene parse_scene_json(const std::string &text, const std::string &where, OutsideFiles outside)
 {
-  static constexpr const char *keys[] = {"tandem_scene", "name", "gravity", "shapes", "materials", "bodies"};
+  static constexpr const char *keys[] = {"tandem_scene", "name", "gravity", "shapes", "materials", "bodies", "joints"};
   const JsonDocument document = parse_json(text, where);
   const JsonValue root(document.value(), where);
   check_format(root);
@@ -231,6 +247,7 @@ Scene parse_scene_json(const std::string &text, const std::string &where, Outsid
   read_value(root.member("bodies"), scene.bodies);
   take_moments(root.member("bodies"), scene);
   take_densities(root.member("bodies"), scene, where);
+  if (auto joints = root.find("joints")) read_value(*joints, scene.joints);
   validate(scene, where);
   return scene;
 }
@@ -248,6 +265,7 @@ std::string to_scene_json(const Scene &scene)
   write_list(text, "shapes", scene.shapes);
   write_list(text, "materials", scene.materials);
   write_list(text, "bodies", scene.bodies);
+  if (!scene.joints.empty()) write_list(text, "joints", scene.joints);
   return text + "}\n";
 }
 

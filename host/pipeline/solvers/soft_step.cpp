@@ -9,7 +9,7 @@ namespace {
 
 void solve(StepLaunches &step, MassSplit &overflow, uint32_t pass)
 {
-  step.for_each_color(Kernel::solve_contacts, {pass});
+  step.for_each_color_with_joints(Kernel::solve_joints, Kernel::solve_overflow_joints, Kernel::solve_contacts, {pass});
   overflow.solve(pass, overflow_iterations);
   solve_rolling(step);
 }
@@ -35,7 +35,8 @@ void solve_in_turns(StepLaunches &step, MassSplit &overflow, uint32_t passes)
 void launch_soft_step_substep(StepLaunches &step, MassSplit &overflow, uint32_t substep)
 {
   step.begin_substep(substep);
-  if (substep == 0) step.for_each_color(Kernel::warm_start);
+  if (substep == 0)
+    step.for_each_color_with_joints(Kernel::warm_start_joints, Kernel::warm_start_overflow_joints, Kernel::warm_start);
   overflow.warm_start();
   warm_start_rolling(step);
   solve_in_turns(step, overflow, passes_of(step, substep));

@@ -78,6 +78,8 @@ enum class Capacity : uint8_t {
   MESH_VERTICES,
   MESH_TRIANGLES,
   SHAPES,
+  FILTERS,
+  JOINTS,
   BODIES,
   BODIES_PLUS_ONE,
   SLEEPERS,

@@ -1,0 +1,146 @@
+/* joint_buffers.cpp - see joint_buffers.h. */
+#include "host/scene/joint_buffers.h"
+
+#include <algorithm>
+#include <bit>
+#include <set>
+#include <utility>
+
+#include <tandem/round_to_float.h>
+
+#include "host/scene/body_buffers.h"
+#include "host/scene/joint_rows.h"
+#include "shared/broadphase/joined_pairs.h"
+#include "shared/counts.h"
+#include "shared/joints/joint_codes.h"
+
+namespace tandem {
+namespace {
+
+uint32_t modes_of(const Joint &joint)
+{
+  const JointRow &row = row_of(joint.type);
+  return row.directions | row.rotations << JOINT_ANGULAR_SHIFT;
+}
+
+bool is_to_world(const Joint &joint) { return joint.body_a == no_body || joint.body_b == no_body; }
+
+/* Two bodies that a joint keeps from colliding, the higher number first. */
+using BodyPair = std::pair<uint32_t, uint32_t>;
+
+std::set<BodyPair> joined_pairs(const Scene &scene)
+{
+  std::set<BodyPair> pairs;
+  for (const Joint &joint : scene.joints)
+    if (!joint.collide && !is_to_world(joint))
+      pairs.insert({std::max(joint.body_a, joint.body_b), std::min(joint.body_a, joint.body_b)});
+  return pairs;
+}
+
+float4 float4_of(const Quat &orientation)
+{
+  const Quat q = unit(orientation);
+  return {q[0], q[1], q[2], q[3]};
+}
+
+/* The rows of joints in the order of the graph. */
+struct JointRows {
+  std::vector<uint32_t> a, b, modes;
+  std::vector<float4> arm_a, arm_b, frame_a, frame_b, world_frame;
+
+  void add(const Joint &joint, std::span<const uint32_t> index_of_body)
+  {
+    const auto index = [&](uint32_t body) { return body == no_body ? INDEX_NONE : index_of_body[body]; };
+    a.push_back(index(joint.body_a));
+    b.push_back(index(joint.body_b));
+    modes.push_back(modes_of(joint));
+    arm_a.push_back(arm_of(joint.position_a, joint.body_a));
+    arm_b.push_back(arm_of(joint.position_b, joint.body_b));
+    frame_a.push_back(float4_of(joint.orientation_a));
+    frame_b.push_back(float4_of(joint.orientation_b));
+    const auto place = double_float3_of(joint.body_a == no_body ? joint.position_a : joint.position_b);
+    world_frame.insert(world_frame.end(), place.begin(), place.end());
+  }
+  void stage(StagedUploads &uploads)
+  {
+    uploads.add(Buffer::joint_a, std::move(a));
+    uploads.add(Buffer::joint_b, std::move(b));
+    uploads.add(Buffer::joint_modes, std::move(modes));
+    uploads.add(Buffer::joint_arm_a, std::move(arm_a));
+    uploads.add(Buffer::joint_arm_b, std::move(arm_b));
+    uploads.add(Buffer::joint_frame_a, std::move(frame_a));
+    uploads.add(Buffer::joint_frame_b, std::move(frame_b));
+    uploads.add(Buffer::joint_world_frame, std::move(world_frame));
+  }
+
+private:
+  static float4 arm_of(const Point &p, uint32_t body)
+  {
+    if (body == no_body) return {0, 0, 0, 0};
+    return {round_to_float(p[0]), round_to_float(p[1]), round_to_float(p[2]), 0};
+  }
+};
+
+void stage_colors(StagedUploads &uploads, const JointGraph &graph, std::span<const uint32_t> index_of_body)
+{
+  std::vector<uint32_t> colors(graph.body_colors.size());
+  for (size_t body = 0; body < index_of_body.size(); ++body)
+    for (size_t word = 0; word < 2; ++word)
+      colors[2 * size_t{index_of_body[body]} + word] = graph.body_colors[2 * body + word];
+  uploads.add(Buffer::body_joint_colors, std::move(colors));
+}
+
+void stage_joined_pairs(StagedUploads &uploads, const Scene &scene, std::span<const uint32_t> index_of_body,
+                        uint32_t first_pair)
+{
+  const uint32_t entries = joined_pair_entries(scene);
+  std::vector<uint32_t> table(2 * size_t{entries}, INDEX_NONE);
+  for (const auto &[one, other] : joined_pairs(scene)) {
+    const uint32_t a = std::max(index_of_body[one], index_of_body[other]),
+                   b = std::min(index_of_body[one], index_of_body[other]);
+    uint32_t k = joined_pair_hash(a, b) & (entries - 1);
+    while (table[2 * size_t{k}] != INDEX_NONE) k = (k + 1) & (entries - 1);
+    table[2 * size_t{k}] = a;
+    table[2 * size_t{k} + 1] = b;
+  }
+  if (entries > 0) uploads.add_elements(Buffer::body_filter, std::move(table), first_pair);
+}
+
+} // namespace
+
+Features joint_features(const Scene &scene)
+{
+  Features features = scene.joints.empty() ? 0 : FEATURE_JOINTS;
+  for (const Joint &joint : scene.joints) {
+    if (modes_of(joint) != JOINT_XYZ) features |= FEATURE_JOINT_FRAMES;
+    if (is_to_world(joint)) features |= FEATURE_JOINTS_TO_WORLD;
+    else if (!joint.collide) features |= FEATURE_JOINED_PAIRS | FEATURE_FILTER;
+  }
+  return features;
+}
+
+std::vector<bool> joined_bodies(const Scene &scene)
+{
+  std::vector<bool> joined(scene.joints.empty() ? 0 : scene.bodies.size());
+  for (const auto &[one, other] : joined_pairs(scene)) joined[one] = joined[other] = true;
+  return joined;
+}
+
+uint32_t joined_pair_entries(const Scene &scene)
+{
+  const size_t pairs = joined_pairs(scene).size();
+  return pairs > 0 ? static_cast<uint32_t>(std::bit_ceil(2 * pairs)) : 0;
+}
+
+void stage_joints(StagedUploads &uploads, const Scene &scene, const JointGraph &graph,
+                  std::span<const uint32_t> index_of_body, uint32_t first_pair)
+{
+  if (scene.joints.empty()) return;
+  JointRows rows;
+  for (const uint32_t joint : graph.order) rows.add(scene.joints[joint], index_of_body);
+  rows.stage(uploads);
+  stage_colors(uploads, graph, index_of_body);
+  stage_joined_pairs(uploads, scene, index_of_body, first_pair);
+}
+
+} // namespace tandem

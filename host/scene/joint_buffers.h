@@ -1,0 +1,31 @@
+/* joint_buffers.h - the joints of a scene as the rows that kernels read, and the pairs of bodies that they keep from
+ * colliding. */
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <tandem/scene.h>
+
+#include "host/runtime/interface/features.h"
+#include "host/scene/joint_graph.h"
+#include "host/scene/staged_uploads.h"
+
+namespace tandem {
+
+Features joint_features(const Scene &scene);
+
+/* By body of the scene: whether a joint keeps it from colliding with another. */
+std::vector<bool> joined_bodies(const Scene &scene);
+
+/* The size of the table of pairs that do not collide (shared/broadphase/joined_pairs.h): a power of two, or 0 if there
+ * are none. */
+uint32_t joined_pair_entries(const Scene &scene);
+
+/* index_of_body: of each body of the scene in the buffers. first_pair: of body_filter, where the table of joined pairs
+ * begins. */
+void stage_joints(StagedUploads &uploads, const Scene &scene, const JointGraph &graph,
+                  std::span<const uint32_t> index_of_body, uint32_t first_pair);
+
+} // namespace tandem

@@ -1,0 +1,29 @@
+/* joint_graph.h - the colours of joints, and the order in which kernels have them.
+ *
+ * Joints are edges of the graph of bodies, as contacts are (shared/batching/coloring.h), but they seldom change. So the
+ * host colours them once, each with the lowest colour that is free at both of its bodies, in the order of the scene;
+ * contacts take what is left. Joints of a body that has all colours in use are overflow joints: a colour behind all
+ * others, solved in order.
+ *
+ *   colour 0 | hinge hinge slider | colour 1 | ball hinge | ... | overflow
+ */
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <tandem/scene.h>
+
+namespace tandem {
+
+struct JointGraph {
+  std::vector<uint32_t> order;       /* joints of the scene by colour; of one colour by type, then by number */
+  std::vector<uint32_t> starts;      /* in that order: the first of each colour, of the overflow joints, and the end */
+  std::vector<uint32_t> body_colors; /* two words a body of the scene: a bit for each colour in use */
+  uint32_t colors = 0;               /* in use; COLOR_LIMIT + 1 if there are overflow joints */
+};
+
+JointGraph joint_graph_of(const Scene &scene);
+
+} // namespace tandem

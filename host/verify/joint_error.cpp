@@ -1,0 +1,77 @@
+/* joint_error.cpp - how far joints are open, from the poses of their bodies, in double; see tandem/metrics.h. */
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+#include <tandem/metrics.h>
+
+#include "host/scene/joint_rows.h"
+#include "shared/joints/joint_codes.h"
+
+namespace tandem {
+namespace {
+
+struct JointFrame {
+  Eigen::Vector3d origin;
+  Eigen::Quaterniond axes;
+};
+
+template <class Real> Eigen::Quaterniond turn_of(const std::array<Real, 4> &q)
+{
+  return Eigen::Quaterniond(double{q[3]}, double{q[0]}, double{q[1]}, double{q[2]}).normalized();
+}
+
+JointFrame frame_of(uint32_t body, const Point &position, const Quat &orientation, const PreciseBodies &states)
+{
+  const Eigen::Vector3d local(position.data());
+  if (body == no_body) return {local, turn_of(orientation)};
+  const Eigen::Quaterniond turn = turn_of(states[body].orientation);
+  return {Eigen::Vector3d(states[body].position.data()) + turn * local, turn * turn_of(orientation)};
+}
+
+/* The length of the part of a vector along these axes. */
+double length_along(uint32_t axes, const Eigen::Vector3d &v)
+{
+  return Eigen::Vector3d((axes & JOINT_X) != 0 ? v.x() : 0, (axes & JOINT_Y) != 0 ? v.y() : 0,
+                         (axes & JOINT_Z) != 0 ? v.z() : 0)
+      .norm();
+}
+
+/* Of a rotation between two frames: the whole of it, or how far it leans the axis x. */
+double angle_of(uint32_t rotations, const Eigen::Quaterniond &q)
+{
+  if (rotations == 0) return 0;
+  if (rotations == JOINT_XYZ) return 2 * std::atan2(q.vec().norm(), std::abs(q.w()));
+  return 2 * std::atan2(std::hypot(q.y(), q.z()), std::hypot(q.x(), q.w()));
+}
+
+} // namespace
+
+std::vector<JointError> joint_errors(const Scene &scene, const PreciseBodies &states)
+{
+  std::vector<JointError> errors;
+  for (const Joint &joint : scene.joints) {
+    const JointRow &row = row_of(joint.type);
+    const JointFrame a = frame_of(joint.body_a, joint.position_a, joint.orientation_a, states),
+                     b = frame_of(joint.body_b, joint.position_b, joint.orientation_b, states);
+    const Eigen::Quaterniond back = a.axes.conjugate();
+    errors.push_back(
+        {length_along(row.directions, back * (b.origin - a.origin)), angle_of(row.rotations, back * b.axes)});
+  }
+  return errors;
+}
+
+JointErrorSummary summary_of(std::span<const JointError> errors)
+{
+  JointErrorSummary summary;
+  for (const JointError &error : errors) {
+    summary.max_distance = std::max(summary.max_distance, error.distance);
+    summary.max_angle = std::max(summary.max_angle, error.angle);
+    summary.mean_distance += error.distance / static_cast<double>(errors.size());
+    summary.mean_angle += error.angle / static_cast<double>(errors.size());
+  }
+  return summary;
+}
+
+} // namespace tandem

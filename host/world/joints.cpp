@@ -1,0 +1,43 @@
+/* joints.cpp - the joints of a world: their tables, and what a world with joints refuses. */
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include <tandem/error.h>
+
+#include "host/pipeline/layout.h"
+#include "host/pipeline/setting_rows.h"
+#include "host/pipeline/solvers/solvers.h"
+#include "host/scene/joint_buffers.h"
+#include "host/world/implementation.h"
+
+namespace tandem {
+
+void check_joints(const Settings &settings, const Scene &scene)
+{
+  if (scene.joints.empty()) return;
+  if (settings.solver != Solver::soft_step)
+    throw InputError(fmt::format("{}: the solver {} has no joints, of which the scene has {}; soft-step has them",
+                                 scene.name, name_of(settings.solver), scene.joints.size()));
+  if (settings.sleeping)
+    throw InputError(fmt::format("{}: bodies with joints cannot sleep, and the scene has {} joints; leave sleeping off",
+                                 scene.name, scene.joints.size()));
+}
+
+void World::Implementation::stage_joint_tables(StagedUploads &uploads) const
+{
+  std::vector<uint32_t> indices(scene.bodies.size());
+  for (uint32_t i = 0; i < special.order.size(); ++i) indices[special.order[i]] = i;
+  stage_joints(uploads, scene, joint_graph, indices, first_joined_pair(sizes()));
+}
+
+/* slots: of bodies that a call would change in a way that their joints cannot follow. */
+void World::Implementation::refuse_joined(const char *call, const char *why, std::span<const uint32_t> given) const
+{
+  for (size_t k = 0; k < scene.joints.size(); ++k)
+    for (const uint32_t slot : given)
+      if (scene.joints[k].body_a == slot || scene.joints[k].body_b == slot)
+        throw InputError(fmt::format("{}: body {}: {}, because joint {} holds it", call, slot, why, k));
+}
+
+} // namespace tandem

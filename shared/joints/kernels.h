@@ -1,0 +1,13 @@
+/* kernels.h - joints between bodies.
+ *
+ * cl/joints.cl and the widths of MiniCL (shared/kernels.h) include the kernels of this stage from here alone. */
+#ifndef TANDEM_SHARED_JOINTS_KERNELS_H
+#define TANDEM_SHARED_JOINTS_KERNELS_H
+
+#include "shared/joints/prepare.h"
+#include "shared/joints/solve.h"
+#ifndef TANDEM_LANES /* ITEM kernels take one item at a time */
+#include "shared/joints/overflow.h"
+#endif
+
+#endif
