@@ -10,6 +10,11 @@
 #include "minicl/width.inc"
 
 namespace tandem::minicl {
+/* Without gaps, the whole numbers stand one behind the other in both precisions. */
+static_assert(offsetof(reference::Parameters, sleep_steps) % (2 * sizeof(reference::memory_real)) == 0);
+static_assert((offsetof(reference::Parameters, features) - offsetof(reference::Parameters, sleep_steps)) %
+                  sizeof(ulong) ==
+              0);
 const ParameterLayout reference_parameters = {
-    offsetof(reference::Parameters, features) / sizeof(reference::memory_real), sizeof(reference::Parameters)};
-}
+    offsetof(reference::Parameters, sleep_steps) / sizeof(reference::memory_real), sizeof(reference::Parameters)};
+} // namespace tandem::minicl

@@ -1,7 +1,8 @@
 /* parameters.h - the numbers of a step that are the same for every item.
  *
- * host/scene/parameters.cpp derives them from the settings of a run. The reals come first, then one number of 64 bits
- * at a multiple of its own size, so that every compiler lays the struct out alike. */
+ * host/scene/parameters.cpp derives them from the settings of a run. The reals come first, whose width differs in the
+ * reference backend, then whole numbers. There are an even number of reals and of words, so that every compiler lays
+ * the struct out alike, with 64 bits at a multiple of their own size and without gaps. */
 #ifndef TANDEM_SHARED_PARAMETERS_H
 #define TANDEM_SHARED_PARAMETERS_H
 
@@ -41,11 +42,12 @@ typedef struct {
   PARAMETER_REAL joint_bias_rate;      /* 1/s, soft joint: gaps are closed at this rate; the three as for contacts */
   PARAMETER_REAL joint_mass_scale;
   PARAMETER_REAL joint_impulse_scale;
-  uint sleep_steps;        /* of rest, before a body may fall asleep */
+  PARAMETER_REAL unused_real; /* for an even number */
+  uint sleep_steps;        /* of rest, before a body may fall asleep; the first whole number */
   uint joined_pairs_first; /* the first entry of body_filter that holds pairs of bodies that do not collide */
   uint joined_pairs_mask;  /* their number, a power of two, minus 1: broadphase/joined_pairs.h */
   uint unused;
-  ulong features;   /* a bit for each row of features.def; an even number of reals stands before */
+  ulong features; /* a bit for each row of features.def */
 } Parameters;
 #endif
 

@@ -32,10 +32,12 @@ void write_rows(Memory &memory, Buffer buffer, const float4 *rows, size_t count,
 Parameters read_parameters(Memory &memory)
 {
   Parameters parameters{};
-  std::array<double, offsetof(Parameters, features) / sizeof(double)> reals{};
+  constexpr size_t wholes_begin = offsetof(Parameters, sleep_steps);
+  std::array<double, wholes_begin / sizeof(double)> reals{};
   memory.read_reals(Buffer::parameters, reals.data(), reals.size());
   std::memcpy(&parameters, reals.data(), sizeof reals);
-  memory.download(Buffer::parameters, &parameters.features, sizeof(Features), reals.size() * sizeof(float));
+  memory.download(Buffer::parameters, &parameters.sleep_steps, sizeof parameters - wholes_begin,
+                  reals.size() * sizeof(float));
   return parameters;
 }
 
