@@ -44,7 +44,9 @@ typedef struct {
   uint sleep_steps;        /* of rest, before a body may fall asleep */
   uint joined_pairs_first; /* the first entry of body_filter that holds pairs of bodies that do not collide */
   uint joined_pairs_mask;  /* their number, a power of two, minus 1: broadphase/joined_pairs.h */
-  uint unused;
+  uint joints;             /* the stride of planes of axes */
+  uint joint_axes;         /* planes: the most axes of a joint */
+  uint unused;             /* for an even number */
   ulong features;   /* a bit for each row of features.def; an even number of reals stands before */
 } Parameters;
 #endif
