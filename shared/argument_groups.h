@@ -412,21 +412,31 @@ typedef struct {
   BUFFER(joint_frame_b, float4, frame_b)                                                                               \
   BUFFER(joint_offset, float4, offset)
 
+/* What joints limit, drive and brake. */
+#define GROUP_joint_axes(BUFFER)                                                                                       \
+  BUFFER(joint_axis_kind, uint, kind)                                                                                  \
+  BUFFER(joint_axis_row, float4, row)
+
 #define GROUP_joint_places(BUFFER)                                                                                     \
   BUFFER(body_position, float4, position)                                                                              \
   BUFFER(joint_world_frame, float4, world_frame)
 
 #define GROUP_joint_impulses(BUFFER)                                                                                   \
   BUFFER(joint_linear_impulse, float4, linear)                                                                         \
-  BUFFER(joint_angular_impulse, float4, angular)
+  BUFFER(joint_angular_impulse, float4, angular)                                                                       \
+  BUFFER(joint_axis_impulse, float4, axis)
 
 #define GROUP_cached_joint_impulses(BUFFER)                                                                            \
   BUFFER(cached_joint_linear_impulse, float4, linear)                                                                  \
-  BUFFER(cached_joint_angular_impulse, float4, angular)
+  BUFFER(cached_joint_angular_impulse, float4, angular)                                                                \
+  BUFFER(cached_joint_axis_impulse, float4, axis)
 
 typedef struct {
   GROUP_joints(READ_MEMBER)
 } read_joints;
+typedef struct {
+  GROUP_joint_axes(READ_MEMBER)
+} read_joint_axes;
 typedef struct {
   GROUP_joint_places(READ_MEMBER)
 } read_joint_places;

@@ -46,8 +46,10 @@ typedef struct {
   uint sleep_steps;        /* of rest, before a body may fall asleep; the first whole number */
   uint joined_pairs_first; /* the first entry of body_filter that holds pairs of bodies that do not collide */
   uint joined_pairs_mask;  /* their number, a power of two, minus 1: broadphase/joined_pairs.h */
-  uint unused;
-  ulong features; /* a bit for each row of features.def */
+  uint joints;             /* the stride of planes of axes */
+  uint joint_axes;         /* planes: the most axes of a joint */
+  uint unused;             /* for an even number */
+  ulong features;          /* a bit for each row of features.def */
 } Parameters;
 #endif
 

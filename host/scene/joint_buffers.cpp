@@ -19,8 +19,8 @@ namespace {
 
 uint32_t modes_of(const Joint &joint)
 {
-  const JointRow &row = row_of(joint.type);
-  return row.directions | row.rotations << JOINT_ANGULAR_SHIFT;
+  const HeldAxes held = held_by(joint);
+  return held.directions | held.rotations << JOINT_ANGULAR_SHIFT;
 }
 
 bool is_to_world(const Joint &joint) { return joint.body_a == no_body || joint.body_b == no_body; }
@@ -41,6 +41,47 @@ float4 float4_of(const Quat &orientation)
 {
   const Quat q = unit(orientation);
   return {q[0], q[1], q[2], q[3]};
+}
+
+/* Kernels compute with a number in place of an infinite limit. */
+float finite(float x) { return std::clamp(x, -1e30f, 1e30f); }
+
+/* The planes of the axes of joints, in the order of the graph. */
+class AxisRows {
+public:
+  AxisRows(size_t joints, uint32_t axes)
+      : joints_(joints), kinds_(joints * axes, uint32_t{JOINT_AXIS_NONE}), rows_(joints * axes * 3)
+  {}
+  void set(size_t joint, size_t k, const UsedAxis &used)
+  {
+    const JointAxis &axis = used.axis;
+    kinds_[k * joints_ + joint] = used.kind;
+    rows_[3 * k * joints_ + joint] = {finite(axis.lower), finite(axis.upper), axis.target_position,
+                                      axis.target_velocity};
+    rows_[(3 * k + 1) * joints_ + joint] = {axis.stiffness, axis.motor ? float{DAMPING_OF_MOTOR} : axis.damping,
+                                            finite(axis.max_force), axis.friction};
+    rows_[(3 * k + 2) * joints_ + joint] = {axis.limit_stiffness, axis.limit_damping, finite(axis.max_speed), 0};
+  }
+  void stage(StagedUploads &uploads)
+  {
+    uploads.add(Buffer::joint_axis_kind, std::move(kinds_));
+    uploads.add(Buffer::joint_axis_row, std::move(rows_));
+  }
+
+private:
+  size_t joints_;
+  std::vector<uint32_t> kinds_;
+  std::vector<float4> rows_;
+};
+
+void stage_axes(StagedUploads &uploads, const Scene &scene, const JointGraph &graph)
+{
+  AxisRows rows(graph.order.size(), most_axes_of_joint(scene));
+  for (size_t i = 0; i < graph.order.size(); ++i) {
+    const std::vector<UsedAxis> used = axes_used_by(scene.joints[graph.order[i]]);
+    for (size_t k = 0; k < used.size(); ++k) rows.set(i, k, used[k]);
+  }
+  rows.stage(uploads);
 }
 
 /* The rows of joints in the order of the graph. */
@@ -113,10 +154,18 @@ Features joint_features(const Scene &scene)
   Features features = scene.joints.empty() ? 0 : FEATURE_JOINTS;
   for (const Joint &joint : scene.joints) {
     if (modes_of(joint) != JOINT_XYZ) features |= FEATURE_JOINT_FRAMES;
+    if (!axes_used_by(joint).empty()) features |= FEATURE_JOINT_AXES | FEATURE_JOINT_FRAMES;
     if (is_to_world(joint)) features |= FEATURE_JOINTS_TO_WORLD;
     else if (!joint.collide) features |= FEATURE_JOINED_PAIRS | FEATURE_FILTER;
   }
   return features;
+}
+
+uint32_t most_axes_of_joint(const Scene &scene)
+{
+  size_t most = 0;
+  for (const Joint &joint : scene.joints) most = std::max(most, axes_used_by(joint).size());
+  return static_cast<uint32_t>(most);
 }
 
 std::vector<bool> joined_bodies(const Scene &scene)
@@ -139,6 +188,7 @@ void stage_joints(StagedUploads &uploads, const Scene &scene, const JointGraph &
   JointRows rows;
   for (const uint32_t joint : graph.order) rows.add(scene.joints[joint], index_of_body);
   rows.stage(uploads);
+  stage_axes(uploads, scene, graph);
   stage_colors(uploads, graph, index_of_body);
   stage_joined_pairs(uploads, scene, index_of_body, first_pair);
 }

@@ -16,6 +16,9 @@ namespace tandem {
 
 Features joint_features(const Scene &scene);
 
+/* The most axes that a joint limits, drives or brakes. */
+uint32_t most_axes_of_joint(const Scene &scene);
+
 /* By body of the scene: whether a joint keeps it from colliding with another. */
 std::vector<bool> joined_bodies(const Scene &scene);
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include <tandem/joints.h>
 
@@ -16,5 +17,18 @@ struct JointRow {
 
 std::span<const JointRow> joint_rows(); /* in the order of the enum */
 const JointRow &row_of(JointType type);
+
+/* What a joint holds: bits JOINT_X, JOINT_Y, JOINT_Z. */
+struct HeldAxes {
+  uint32_t directions, rotations;
+};
+HeldAxes held_by(const Joint &joint);
+
+/* An axis of a joint that is limited, driven or braked; kind: JOINT_AXIS_ of joint_codes.h. */
+struct UsedAxis {
+  uint32_t kind;
+  JointAxis axis;
+};
+std::vector<UsedAxis> axes_used_by(const Joint &joint);
 
 } // namespace tandem

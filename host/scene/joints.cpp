@@ -1,5 +1,7 @@
 /* joints.cpp - the table of the types of joints, and the validation of joints. */
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <iterator>
 #include <ranges>
 
@@ -35,6 +37,63 @@ const JointRow &row_of(JointType type) { return joint_rows()[static_cast<size_t>
 
 namespace {
 
+uint32_t bits_of(const Axes &axes)
+{
+  return (axes.x ? uint32_t{JOINT_X} : 0u) | (axes.y ? uint32_t{JOINT_Y} : 0u) | (axes.z ? uint32_t{JOINT_Z} : 0u);
+}
+
+bool is_used(const JointAxis &axis) { return axis != JointAxis{}; }
+
+/* The kinds of the axes of a type: three directions, three rotations; JOINT_AXIS_NONE: the type has no such axis. */
+using Kinds = std::array<uint32_t, 6>;
+
+Kinds kinds_of(const Joint &joint)
+{
+  Kinds kinds{JOINT_AXIS_X, JOINT_AXIS_Y, JOINT_AXIS_Z, JOINT_AXIS_TWIST, JOINT_AXIS_SWING_Y, JOINT_AXIS_SWING_Z};
+  const HeldAxes held = held_by(joint);
+  for (uint32_t k = 0; k < 3; ++k) {
+    if ((held.directions >> k & 1u) != 0) kinds[k] = JOINT_AXIS_NONE;
+    if ((held.rotations >> k & 1u) != 0) kinds[k + 3] = JOINT_AXIS_NONE;
+  }
+  if (joint.type == JointType::distance)
+    kinds = {JOINT_AXIS_DISTANCE, JOINT_AXIS_NONE, JOINT_AXIS_NONE, JOINT_AXIS_NONE, JOINT_AXIS_NONE, JOINT_AXIS_NONE};
+  if (joint.type == JointType::cone_twist) kinds[4] = JOINT_AXIS_CONE, kinds[5] = JOINT_AXIS_NONE;
+  if (joint.type == JointType::universal) kinds[5] = JOINT_AXIS_NONE;
+  return kinds;
+}
+
+std::array<const JointAxis *, 6> axes_of(const Joint &joint)
+{
+  return {&joint.directions[0], &joint.directions[1], &joint.directions[2],
+          &joint.rotations[0],  &joint.rotations[1],  &joint.rotations[2]};
+}
+
+} // namespace
+
+HeldAxes held_by(const Joint &joint)
+{
+  if (joint.type == JointType::six_dof) return {bits_of(joint.held_directions), bits_of(joint.held_rotations)};
+  const JointRow &row = row_of(joint.type);
+  return {row.directions, row.rotations};
+}
+
+std::vector<UsedAxis> axes_used_by(const Joint &joint)
+{
+  const Kinds kinds = kinds_of(joint);
+  const auto axes = axes_of(joint);
+  std::vector<UsedAxis> used;
+  for (size_t k = 0; k < kinds.size(); ++k)
+    if (kinds[k] != JOINT_AXIS_NONE && is_used(*axes[k])) used.push_back({kinds[k], *axes[k]});
+  if (joint.type == JointType::universal) {
+    JointAxis held;
+    held.lower = held.upper = 0;
+    used.push_back({JOINT_AXIS_CROSS, held});
+  }
+  return used;
+}
+
+namespace {
+
 std::string names_of_types()
 {
   std::string names;
@@ -59,6 +118,44 @@ void check_position(const char *field, const Point &position, uint32_t body, con
   check.within(field, position, body == no_body ? farthest : double{longest_length});
 }
 
+void check_axis(const std::string &field, const JointAxis &axis, const Checker &check)
+{
+  const auto name = [&](const char *of) { return field + "." + of; };
+  if (std::isnan(axis.lower) || std::isnan(axis.upper) || axis.lower > axis.upper)
+    check.fail(fmt::format("{} is from {} to {}; a lower limit that is at most the upper one is needed", field,
+                           axis.lower, axis.upper));
+  for (const auto &[of, x] :
+       {std::pair("target_position", axis.target_position), std::pair("target_velocity", axis.target_velocity)})
+    if (!std::isfinite(x)) check.fail(fmt::format("{} is {}; a finite number is needed", name(of), x));
+  check.at_least_zero(name("stiffness").c_str(), axis.stiffness);
+  check.at_least_zero(name("friction").c_str(), axis.friction);
+  check.at_least_zero(name("limit_stiffness").c_str(), axis.limit_stiffness);
+  check.at_least_zero(name("limit_damping").c_str(), axis.limit_damping);
+  check.at_least_zero(name("damping").c_str(), axis.damping);
+  if (axis.motor && (axis.stiffness > 0 || axis.damping > 0))
+    check.fail(
+        fmt::format("{} is a motor and has stiffness {} and damping {}; a motor has neither, because it holds its "
+                    "velocity",
+                    field, axis.stiffness, axis.damping));
+  if (!(axis.max_force >= 0))
+    check.fail(fmt::format("{} is {}; at least 0 is needed, or infinity", name("max_force"), axis.max_force));
+  check.speed(name("max_speed").c_str(), axis.max_speed);
+}
+
+void check_axes(const Joint &joint, const Checker &check)
+{
+  static constexpr const char *fields[] = {"directions[0]", "directions[1]", "directions[2]",
+                                           "rotations[0]",  "rotations[1]",  "rotations[2]"};
+  const Kinds kinds = kinds_of(joint);
+  const auto axes = axes_of(joint);
+  for (size_t k = 0; k < kinds.size(); ++k) {
+    if (kinds[k] == JOINT_AXIS_NONE && is_used(*axes[k]))
+      check.fail(
+          fmt::format("{} is not free in a joint of type {}; leave it away", fields[k], row_of(joint.type).name));
+    check_axis(fields[k], *axes[k], check);
+  }
+}
+
 } // namespace
 
 void validate(const Scene &scene, const Joint &joint, size_t index, const std::string &where)
@@ -77,6 +174,13 @@ void validate(const Scene &scene, const Joint &joint, size_t index, const std::s
   check_position("position_b", joint.position_b, joint.body_b, check);
   check.unit("orientation_a", joint.orientation_a);
   check.unit("orientation_b", joint.orientation_b);
+  const Axes none;
+  if (joint.type != JointType::six_dof && (joint.held_directions != none || joint.held_rotations != none))
+    check.fail(
+        fmt::format("held_directions and held_rotations are of a six_dof joint; a joint of type {} holds what its "
+                    "type says",
+                    row_of(joint.type).name));
+  check_axes(joint, check);
 }
 
 } // namespace tandem

@@ -52,12 +52,12 @@ std::vector<JointError> joint_errors(const Scene &scene, const PreciseBodies &st
 {
   std::vector<JointError> errors;
   for (const Joint &joint : scene.joints) {
-    const JointRow &row = row_of(joint.type);
+    const HeldAxes held = held_by(joint);
     const JointFrame a = frame_of(joint.body_a, joint.position_a, joint.orientation_a, states),
                      b = frame_of(joint.body_b, joint.position_b, joint.orientation_b, states);
     const Eigen::Quaterniond back = a.axes.conjugate();
     errors.push_back(
-        {length_along(row.directions, back * (b.origin - a.origin)), angle_of(row.rotations, back * b.axes)});
+        {length_along(held.directions, back * (b.origin - a.origin)), angle_of(held.rotations, back * b.axes)});
   }
   return errors;
 }

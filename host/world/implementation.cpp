@@ -106,6 +106,7 @@ Sizes World::Implementation::sizes() const
           .hulls = hulls,
           .trees = trees.sizes,
           .joints = static_cast<uint32_t>(scene.joints.size()),
+          .joint_axes = most_axes_of_joint(scene),
           .joined_pairs = joined_pair_entries(scene),
           .pairs = plan.capacity_pairs,
           .cells = plan.capacity_cells,
@@ -248,6 +249,8 @@ Parameters World::Implementation::parameters_now() const
   Parameters parameters = parameters_of(scene, settings_in_use, special.features, special.median);
   const float before = plan.substeps.of_cache, now = plan.substeps.now;
   if (plan.substeps.automatic) parameters.warm_start_scale = before / now;
+  parameters.joints = static_cast<uint32_t>(scene.joints.size());
+  parameters.joint_axes = most_axes_of_joint(scene);
   parameters.joined_pairs_first = first_joined_pair(sizes());
   parameters.joined_pairs_mask = std::max(joined_pair_entries(scene), 1u) - 1;
   return parameters;

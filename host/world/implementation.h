@@ -218,7 +218,7 @@ struct World::Implementation {
   void write_properties(std::span<const uint32_t> slots);
   void forget_colors(std::span<const uint32_t> freed);
 
-  /* --- joints: joints.cpp ------------------------------------------------------------------------------------------ */
+  /* --- joints: joints.cpp ---------------------------------------------------------------------------------------- */
   void stage_joint_tables(StagedUploads &uploads) const;
   void refuse_joined(const char *call, const char *why, std::span<const uint32_t> slots) const;
 

@@ -45,7 +45,8 @@ bool follows_bodies(Buffer buffer)
   const BufferRow &row = row_of(buffer);
   const bool kept =
       row.lifetime == Lifetime::SCENE || (row.lifetime == Lifetime::KEPT && index_of(buffer) >= buffer_count);
-  return kept && (row.capacity == Capacity::BODIES || row.capacity == Capacity::SHAPES || row.capacity == Capacity::FILTERS);
+  return kept && (row.capacity == Capacity::BODIES || row.capacity == Capacity::SHAPES ||
+                  row.capacity == Capacity::FILTERS);
 }
 
 } // namespace

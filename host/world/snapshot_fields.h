@@ -50,10 +50,20 @@ template <Is<Body> T, class Visit> auto visit_fields(T &record, const Visit &vis
                max_angular_speed, user_data);
 }
 
+template <Is<JointAxis> T, class Visit> auto visit_fields(T &record, const Visit &visit)
+{
+  auto &[lower, upper, limit_stiffness, limit_damping, target_position, target_velocity, stiffness, damping, motor,
+         max_force, friction, max_speed] = record;
+  return visit(lower, upper, limit_stiffness, limit_damping, target_position, target_velocity, stiffness, damping,
+               motor, max_force, friction, max_speed);
+}
+
 template <Is<Joint> T, class Visit> auto visit_fields(T &record, const Visit &visit)
 {
-  auto &[name, type, body_a, body_b, position_a, position_b, orientation_a, orientation_b, collide] = record;
-  return visit(name, type, body_a, body_b, position_a, position_b, orientation_a, orientation_b, collide);
+  auto &[name, type, body_a, body_b, position_a, position_b, orientation_a, orientation_b, collide, held_directions,
+         held_rotations, directions, rotations] = record;
+  return visit(name, type, body_a, body_b, position_a, position_b, orientation_a, orientation_b, collide,
+               held_directions, held_rotations, directions, rotations);
 }
 
 /* Extensions are functions of the program; snapshots name their modules. */
@@ -61,12 +71,12 @@ template <Is<Settings> T, class Visit> auto visit_fields(T &record, const Visit 
 {
   auto &[step, substeps, iterations, solver, broadphase, bounds, midphase, narrowphase, support, support_cells,
          batching, check, events, pair_events, sleeping, sleep_speed, sleep_time, moved_bodies, max_pairs, specialise,
-         extensions, contact_hertz, contact_damping_ratio, joint_hertz, joint_damping_ratio, push_speed, slop, slop_share, restitution_speed, hit_speed] =
-      record;
+         extensions, contact_hertz, contact_damping_ratio, joint_hertz, joint_damping_ratio, push_speed, slop,
+         slop_share, restitution_speed, hit_speed] = record;
   return visit(step, substeps, iterations, solver, broadphase, bounds, midphase, narrowphase, support, support_cells,
                batching, check, events, pair_events, sleeping, sleep_speed, sleep_time, moved_bodies, max_pairs,
-               specialise, contact_hertz, contact_damping_ratio, joint_hertz, joint_damping_ratio, push_speed, slop, slop_share, restitution_speed,
-               hit_speed);
+               specialise, contact_hertz, contact_damping_ratio, joint_hertz, joint_damping_ratio, push_speed, slop,
+               slop_share, restitution_speed, hit_speed);
 }
 
 template <Is<HullPlane> T, class Visit> auto visit_fields(T &record, const Visit &visit)

@@ -13,22 +13,23 @@
   for (uint i = counts[JOINT_COLOR_START + COLOR_OVERFLOW]; i < counts[COUNT_JOINTS]; ++i)
 
 SHARED void warm_start_overflow_joints_item(GLOBAL const Parameters *parameters, read_joints joints,
-                                            read_turning_bodies bodies, read_joint_impulses impulses,
-                                            GLOBAL const uint *counts, GLOBAL float4 *solver_velocity, uint only)
+                                            read_turning_bodies bodies, read_joint_axes axes,
+                                            read_joint_impulses impulses, GLOBAL const uint *counts,
+                                            GLOBAL float4 *solver_velocity, uint only)
 {
   (void)only;
   FOR_EACH_OVERFLOW_JOINT(i)
-  warm_start_joints_item(parameters, joints, bodies, impulses, solver_velocity, i);
+  warm_start_joints_item(parameters, joints, bodies, axes, impulses, solver_velocity, i);
 }
 
 SHARED void solve_overflow_joints_item(GLOBAL const Parameters *parameters, read_joints joints,
-                                       read_turning_bodies bodies, GLOBAL const uint *counts,
+                                       read_turning_bodies bodies, read_joint_axes axes, GLOBAL const uint *counts,
                                        write_joint_impulses impulses, GLOBAL float4 *solver_velocity,
                                        GLOBAL float4 *warm_start_impulse, uint pass, uint only)
 {
   (void)only;
   FOR_EACH_OVERFLOW_JOINT(i)
-  solve_joints_item(parameters, joints, bodies, impulses, solver_velocity, warm_start_impulse, pass, i);
+  solve_joints_item(parameters, joints, bodies, axes, impulses, solver_velocity, warm_start_impulse, pass, i);
 }
 
 #endif

@@ -2,7 +2,7 @@
 #ifndef TANDEM_SHARED_JOINTS_PREPARE_H
 #define TANDEM_SHARED_JOINTS_PREPARE_H
 
-#include "shared/joints/joint.h"
+#include "shared/joints/axes.h"
 
 /* Where the arm of a side begins: the centre of its body, or the frame in the world. */
 SHARED double_float3 load_origin(read_joint_places places, uint_lanes body, item_index i)
@@ -14,6 +14,16 @@ SHARED double_float3 load_origin(read_joint_places places, uint_lanes body, item
   origin.high = choose3(is_world, frame.high, origin.high);
   origin.low = choose3(is_world, frame.low, origin.low);
   return origin;
+}
+
+SHARED void prepare_axes(GLOBAL const Parameters *parameters, GLOBAL const float4 *cached, GLOBAL float4 *impulse,
+                         item_index i)
+{
+  real kept = (real)parameters->warm_start_scale;
+  for (uint k = 0; k < parameters->joint_axes; ++k) {
+    vec4 old = load_float4(cached, joint_plane(parameters, k) + i);
+    store_float4(impulse, joint_plane(parameters, k) + i, extend(scale(xyz(old), kept), old.w));
+  }
 }
 
 /* A body with a joint does not fall freely. */
@@ -29,6 +39,7 @@ SHARED void prepare_joints_item(GLOBAL const Parameters *parameters, GLOBAL cons
   store_float4(impulses.linear, i, extend(scale(xyz(load_float4(cached.linear, i)), kept), R(0.0)));
   if (HAS_FEATURE(parameters, JOINT_FRAMES))
     store_float4(impulses.angular, i, extend(scale(xyz(load_float4(cached.angular, i)), kept), R(0.0)));
+  if (HAS_FEATURE(parameters, JOINT_AXES)) prepare_axes(parameters, cached.axis, impulses.axis, i);
   atomic_clear_if(a != (uint_lanes)INDEX_NONE, body_falls, a);
   atomic_clear_if(b != (uint_lanes)INDEX_NONE, body_falls, b);
 }
@@ -38,6 +49,10 @@ SHARED void cache_joints_item(GLOBAL const Parameters *parameters, read_joint_im
 {
   store_float4(cached.linear, i, load_float4(impulses.linear, i));
   if (HAS_FEATURE(parameters, JOINT_FRAMES)) store_float4(cached.angular, i, load_float4(impulses.angular, i));
+  if (!HAS_FEATURE(parameters, JOINT_AXES)) return;
+  for (uint k = 0; k < parameters->joint_axes; ++k)
+    store_float4(cached.axis, joint_plane(parameters, k) + i,
+                 load_float4(impulses.axis, joint_plane(parameters, k) + i));
 }
 
 #endif

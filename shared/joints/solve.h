@@ -1,4 +1,5 @@
-/* solve.h - the passes of joints in the solver soft-step: angular rows as one block, then linear rows as another.
+/* solve.h - the passes of joints in the solver soft-step: limits and drives first, then angular rows
+ * as one block, then linear rows as another.
  *
  * A joint is a soft constraint as a contact is (solve/contact.h): a pass with bias closes what is open like an
  * overdamped spring, and a relaxing pass takes the velocity of closing out again. Both blocks are solved where the
@@ -13,13 +14,9 @@
 #ifndef TANDEM_SHARED_JOINTS_SOLVE_H
 #define TANDEM_SHARED_JOINTS_SOLVE_H
 
+#include "shared/joints/axes.h"
 #include "shared/joints/block.h"
-#include "shared/joints/joint.h"
-#include "shared/solve/pass.h"
-
-/* Joints close no faster than this, m/s and rad/s. Bodies that begin far from where a joint wants them would otherwise
- * arrive with the energy of a bullet. */
-#define JOINT_CLOSING R(10.0)
+#include "shared/joints/frames.h"
 
 SHARED vec3 no_longer_than(vec3 v, real limit)
 {
@@ -42,24 +39,6 @@ SHARED vec3 accumulated(GLOBAL const Parameters *parameters, vec3 old, vec3 solv
   if (pass != PASS_BIASED) return subtract(old, solved);
   return subtract(subtract(old, scale(solved, parameters->joint_mass_scale)),
                   scale(old, parameters->joint_impulse_scale));
-}
-
-/* Where both frames are: the axes of frame a, and frame b in them. A scene of ball joints has no use for them. */
-typedef struct {
-  mat3 axes;
-  quat relative;
-} joint_frames;
-
-SHARED joint_frames frames_of(GLOBAL const Parameters *parameters, joint j, read_joints joints, item_index i)
-{
-  joint_frames f = {rotation_of(j.a.orientation), j.b.orientation};
-  if (!HAS_FEATURE(parameters, JOINT_FRAMES)) return f;
-  quat a = quat_multiply(j.a.orientation, quat_from(load_float4(joints.frame_a, i)));
-  quat b = quat_multiply(j.b.orientation, quat_from(load_float4(joints.frame_b, i)));
-  quat back = make_quat(-a.x, -a.y, -a.z, a.w);
-  f.axes = rotation_of(a);
-  f.relative = quat_multiply(back, b);
-  return f;
 }
 
 /* How far frame b is turned from frame a, in axes of a: about all three axes, or as the lean of the axis x. */
@@ -89,7 +68,7 @@ SHARED joint solve_angular_block(GLOBAL const Parameters *parameters, joint j, j
 }
 
 /* Some of the three directions, in axes of frame a. */
-SHARED joint solve_axes(GLOBAL const Parameters *parameters, joint j, joint_frames f, vec3 *impulse, uint pass)
+SHARED joint solve_directions(GLOBAL const Parameters *parameters, joint j, joint_frames f, vec3 *impulse, uint pass)
 {
   uint_lanes locked = j.modes & (uint)JOINT_XYZ;
   mask wanted = (locked != 0u) & (locked != (uint_lanes)(uint)JOINT_XYZ);
@@ -131,11 +110,6 @@ SHARED joint_impulses load_joint_impulses(GLOBAL const Parameters *parameters, G
   return p;
 }
 
-/* What a joint gives its bodies, in axes of the world: an impulse at frame b, and its moments about both centres. */
-typedef struct {
-  vec3 impulse, moment_a, moment_b;
-} joint_wrench;
-
 /* A joint without angular rows adds no moment, because adding 0 would turn -0 into +0. */
 SHARED joint_wrench joint_wrench_of(GLOBAL const Parameters *parameters, joint j, joint_frames f, joint_impulses p)
 {
@@ -156,11 +130,14 @@ SHARED joint_wrench joint_wrench_of(GLOBAL const Parameters *parameters, joint j
 
 /* Applies the impulses of the last step in the first substep. */
 SHARED void warm_start_joints_item(GLOBAL const Parameters *parameters, read_joints joints, read_turning_bodies bodies,
-                                   read_joint_impulses impulses, GLOBAL float4 *solver_velocity, item_index i)
+                                   read_joint_axes axes, read_joint_impulses impulses, GLOBAL float4 *solver_velocity,
+                                   item_index i)
 {
   joint j = load_joint(parameters, joints, bodies, solver_velocity, i);
+  joint_frames f = frames_of(parameters, j, joints, i);
   joint_impulses p = load_joint_impulses(parameters, impulses.linear, impulses.angular, i);
-  joint_wrench w = joint_wrench_of(parameters, j, frames_of(parameters, j, joints, i), p);
+  joint_wrench w = joint_wrench_of(parameters, j, f, p);
+  if (HAS_FEATURE(parameters, JOINT_AXES)) w = with_wrench_of_axes(parameters, j, f, axes, impulses.axis, w, i);
   push_side(&j.a, w.impulse, w.moment_a, R(-1.0));
   push_side(&j.b, w.impulse, w.moment_b, R(1.0));
   store_joint_velocities(solver_velocity, j);
@@ -177,15 +154,16 @@ SHARED void add_to_warm_start(GLOBAL float4 *warm_start_impulse, joint_side s, v
 }
 
 SHARED void solve_joints_item(GLOBAL const Parameters *parameters, read_joints joints, read_turning_bodies bodies,
-                              write_joint_impulses impulses, GLOBAL float4 *solver_velocity,
+                              read_joint_axes axes, write_joint_impulses impulses, GLOBAL float4 *solver_velocity,
                               GLOBAL float4 *warm_start_impulse, uint pass, item_index i)
 {
   joint j = load_joint(parameters, joints, bodies, solver_velocity, i);
   joint_frames f = frames_of(parameters, j, joints, i);
   joint_impulses p = load_joint_impulses(parameters, impulses.linear, impulses.angular, i);
+  if (HAS_FEATURE(parameters, JOINT_AXES)) j = solve_axes(parameters, j, f, axes, impulses.axis, pass, i);
   if (HAS_FEATURE(parameters, JOINT_FRAMES)) {
     j = solve_angular_block(parameters, j, f, &p.angular, pass);
-    j = solve_axes(parameters, j, f, &p.linear, pass);
+    j = solve_directions(parameters, j, f, &p.linear, pass);
     store_float4(impulses.angular, i, extend(p.angular, R(0.0)));
   }
   j = solve_point(parameters, j, &p.linear, pass);
@@ -193,6 +171,7 @@ SHARED void solve_joints_item(GLOBAL const Parameters *parameters, read_joints j
   store_joint_velocities(solver_velocity, j);
   if (pass != PASS_RELAXING) return;
   joint_wrench w = joint_wrench_of(parameters, j, f, p);
+  if (HAS_FEATURE(parameters, JOINT_AXES)) w = with_wrench_of_axes(parameters, j, f, axes, impulses.axis, w, i);
   add_to_warm_start(warm_start_impulse, j.a, w.impulse, w.moment_a, R(-1.0));
   add_to_warm_start(warm_start_impulse, j.b, w.impulse, w.moment_b, R(1.0));
 }

@@ -1,4 +1,5 @@
-/* no_body.h - the index where there is no body: of a query that hits nothing, of a side of a joint that is the world. */
+/* no_body.h - the index where there is no body: what a query hits that hits nothing, a side of a joint that is the
+ * world. */
 #pragma once
 
 #include <cstdint>

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include <tandem/axes.h>
 #include <tandem/error.h>
 #include <tandem/export.h>
 #include <tandem/joints.h>
@@ -37,12 +38,6 @@ enum class BodyType : uint32_t {
   fixed = 0,     /* never moves */
   kinematic = 1, /* moves with its given velocities, as if infinitely heavy */
   dynamic = 2
-};
-
-/* Axes of the world. */
-struct Axes {
-  bool x = false, y = false, z = false;
-  friend bool operator==(const Axes &, const Axes &) = default;
 };
 
 struct Body {
@@ -87,9 +82,9 @@ struct Scene {
   std::vector<Joint> joints;
 };
 
-/* Throws InputError that names the first body, shape, material or joint that cannot be simulated: non-finite or non-positive
- * sizes and masses, NaN or infinite poses, quaternions that are not of unit length, indices out of range, dynamic
- * half-spaces. `where` prefixes the message (a file name). */
+/* Throws InputError that names the first body, shape, material or joint that cannot be simulated: non-finite or
+ * non-positive sizes and masses, NaN or infinite poses, quaternions that are not of unit length, indices out of range,
+ * dynamic half-spaces. `where` prefixes the message (a file name). */
 TANDEM_API void validate(const Scene &scene, const std::string &where);
 
 /* The same of one more body, shape, material or joint of a scene; index: the number that the message names. */

@@ -17,6 +17,7 @@
 namespace tandem {
 namespace {
 
+using tandem::same;
 using tandem::written; /* beside the overloads of this file */
 
 constexpr const char *axis_names[] = {"x", "y", "z"};
@@ -79,6 +80,26 @@ template <typename Field> void each_field(const Joint *, Field &&field)
   field("position_b", &Joint::position_b);
   field("orientation_b", &Joint::orientation_b);
   field("collide", &Joint::collide);
+  field("held_directions", &Joint::held_directions);
+  field("held_rotations", &Joint::held_rotations);
+  field("directions", &Joint::directions);
+  field("rotations", &Joint::rotations);
+}
+
+template <typename Field> void each_field(const JointAxis *, Field &&field)
+{
+  field("lower", &JointAxis::lower);
+  field("upper", &JointAxis::upper);
+  field("limit_stiffness", &JointAxis::limit_stiffness);
+  field("limit_damping", &JointAxis::limit_damping);
+  field("target_position", &JointAxis::target_position);
+  field("target_velocity", &JointAxis::target_velocity);
+  field("stiffness", &JointAxis::stiffness);
+  field("damping", &JointAxis::damping);
+  field("motor", &JointAxis::motor);
+  field("max_force", &JointAxis::max_force);
+  field("friction", &JointAxis::friction);
+  field("max_speed", &JointAxis::max_speed);
 }
 
 /* --- reading --------------------------------------------------------------------------------- */
@@ -102,6 +123,8 @@ template <typename Enum>
 requires std::is_enum_v<Enum>
 void read_value(const JsonValue &json, Enum &value) { value = Enum(json.choice(names_of(value))); }
 
+void read_value(const JsonValue &json, std::array<JointAxis, 3> &axes);
+
 /* Keys of a record in a file that are none of its fields. */
 template <typename Record> std::vector<const char *> further_keys(const Record *) { return {}; }
 std::vector<const char *> further_keys(const Body *) { return {"density"}; } /* take_densities */
@@ -124,6 +147,14 @@ template <typename Record> void read_value(const JsonValue &json, std::vector<Re
 {
   records.resize(json.array_size());
   for (size_t i = 0; i < records.size(); ++i) read_value(json.element(i), records[i]);
+}
+
+/* Of three axes, those at the end that are as usual may be left away. */
+void read_value(const JsonValue &json, std::array<JointAxis, 3> &axes)
+{
+  if (json.array_size() > axes.size())
+    json.fail(fmt::format("has {} entries; x, y and z are needed, or the first of them", json.array_size()));
+  for (size_t i = 0; i < json.array_size(); ++i) read_value(json.element(i), axes[i]);
 }
 
 void read_shapes(const JsonValue &json, OutsideFiles outside, std::vector<Shape> &shapes)
@@ -205,6 +236,10 @@ requires std::is_enum_v<Enum> std::string written(Enum value)
 {
   return fmt::format("\"{}\"", names_of(value)[size_t(value)]);
 }
+using ThreeAxes = std::array<JointAxis, 3>;
+std::string written(const ThreeAxes &axes);
+bool same(const ThreeAxes &a, const ThreeAxes &b) { return written(a) == written(b); }
+
 /* Fields that have their default value are omitted, except those that are always written. */
 template <typename Record> std::string written_record(const Record &record, std::string text)
 {
@@ -218,6 +253,19 @@ template <typename Record> std::string written_record(const Record &record, std:
 
 std::string written(const Material &material) { return written_record(material, ""); }
 std::string written(const Body &body) { return written_record(body, ""); }
+
+std::string written(const ThreeAxes &axes)
+{
+  std::string text, waiting;
+  for (const JointAxis &axis : axes) {
+    const std::string entry = written_record(axis, "");
+    waiting += (text.empty() && waiting.empty() ? "" : ", ") + entry;
+    if (entry == "{}") continue;
+    text += waiting;
+    waiting.clear();
+  }
+  return "[" + text + "]";
+}
 
 std::string written(const Joint &joint) { return written_record(joint, ""); }
 

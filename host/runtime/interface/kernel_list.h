@@ -80,6 +80,7 @@ enum class Capacity : uint8_t {
   SHAPES,
   FILTERS,
   JOINTS,
+  JOINT_AXES,
   BODIES,
   BODIES_PLUS_ONE,
   SLEEPERS,
