@@ -25,6 +25,8 @@ uint32_t modes_of(const Joint &joint)
 
 bool is_to_world(const Joint &joint) { return joint.body_a == no_body || joint.body_b == no_body; }
 
+bool parts_bodies(const Joint &joint) { return !joint.collide && !is_to_world(joint); }
+
 /* Two bodies that a joint keeps from colliding, the higher number first. */
 using BodyPair = std::pair<uint32_t, uint32_t>;
 
@@ -32,8 +34,7 @@ std::set<BodyPair> joined_pairs(const Scene &scene)
 {
   std::set<BodyPair> pairs;
   for (const Joint &joint : scene.joints)
-    if (!joint.collide && !is_to_world(joint))
-      pairs.insert({std::max(joint.body_a, joint.body_b), std::min(joint.body_a, joint.body_b)});
+    if (parts_bodies(joint)) pairs.insert({std::max(joint.body_a, joint.body_b), std::min(joint.body_a, joint.body_b)});
   return pairs;
 }
 
@@ -76,7 +77,7 @@ private:
 
 void stage_axes(StagedUploads &uploads, const Scene &scene, const JointGraph &graph)
 {
-  AxisRows rows(graph.order.size(), most_axes_of_joint(scene));
+  AxisRows rows(graph.order.size(), graph.axes);
   for (size_t i = 0; i < graph.order.size(); ++i) {
     const std::vector<UsedAxis> used = axes_used_by(scene.joints[graph.order[i]]);
     for (size_t k = 0; k < used.size(); ++k) rows.set(i, k, used[k]);
@@ -131,10 +132,10 @@ void stage_colors(StagedUploads &uploads, const JointGraph &graph, std::span<con
   uploads.add(Buffer::body_joint_colors, std::move(colors));
 }
 
-void stage_joined_pairs(StagedUploads &uploads, const Scene &scene, std::span<const uint32_t> index_of_body,
-                        uint32_t first_pair)
+void stage_joined_pairs(StagedUploads &uploads, const Scene &scene, const JointGraph &graph,
+                        std::span<const uint32_t> index_of_body, uint32_t first_pair)
 {
-  const uint32_t entries = joined_pair_entries(scene);
+  const uint32_t entries = graph.joined_pairs;
   std::vector<uint32_t> table(2 * size_t{entries}, INDEX_NONE);
   for (const auto &[one, other] : joined_pairs(scene)) {
     const uint32_t a = std::max(index_of_body[one], index_of_body[other]),
@@ -171,7 +172,8 @@ uint32_t most_axes_of_joint(const Scene &scene)
 std::vector<bool> joined_bodies(const Scene &scene)
 {
   std::vector<bool> joined(scene.joints.empty() ? 0 : scene.bodies.size());
-  for (const auto &[one, other] : joined_pairs(scene)) joined[one] = joined[other] = true;
+  for (const Joint &joint : scene.joints)
+    if (parts_bodies(joint)) joined[joint.body_a] = joined[joint.body_b] = true;
   return joined;
 }
 
@@ -190,7 +192,7 @@ void stage_joints(StagedUploads &uploads, const Scene &scene, const JointGraph &
   rows.stage(uploads);
   stage_axes(uploads, scene, graph);
   stage_colors(uploads, graph, index_of_body);
-  stage_joined_pairs(uploads, scene, index_of_body, first_pair);
+  stage_joined_pairs(uploads, scene, graph, index_of_body, first_pair);
 }
 
 } // namespace tandem

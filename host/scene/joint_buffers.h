@@ -16,14 +16,13 @@ namespace tandem {
 
 Features joint_features(const Scene &scene);
 
-/* The most axes that a joint limits, drives or brakes. */
+/* JointGraph::axes. */
 uint32_t most_axes_of_joint(const Scene &scene);
 
 /* By body of the scene: whether a joint keeps it from colliding with another. */
 std::vector<bool> joined_bodies(const Scene &scene);
 
-/* The size of the table of pairs that do not collide (shared/broadphase/joined_pairs.h): a power of two, or 0 if there
- * are none. */
+/* The entries of JointGraph::joined_pairs. */
 uint32_t joined_pair_entries(const Scene &scene);
 
 /* index_of_body: of each body of the scene in the buffers. first_pair: of body_filter, where the table of joined pairs

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "host/scene/joint_buffers.h"
 #include "shared/counts.h"
 
 namespace tandem {
@@ -59,6 +60,8 @@ JointGraph joint_graph_of(const Scene &scene)
     ++graph.starts[color + 1];
     graph.colors = std::max(graph.colors, color + 1);
   }
+  graph.axes = most_axes_of_joint(scene);
+  graph.joined_pairs = joined_pair_entries(scene);
   std::partial_sum(graph.starts.begin(), graph.starts.end(), graph.starts.begin());
   graph.order.resize(colors.size());
   std::iota(graph.order.begin(), graph.order.end(), 0u);

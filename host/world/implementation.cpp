@@ -106,8 +106,8 @@ Sizes World::Implementation::sizes() const
           .hulls = hulls,
           .trees = trees.sizes,
           .joints = static_cast<uint32_t>(scene.joints.size()),
-          .joint_axes = most_axes_of_joint(scene),
-          .joined_pairs = joined_pair_entries(scene),
+          .joint_axes = joint_graph.axes,
+          .joined_pairs = joint_graph.joined_pairs,
           .pairs = plan.capacity_pairs,
           .cells = plan.capacity_cells,
           .candidates = settings.broadphase == Broadphase::trees ? plan.capacity_candidates : 0,
@@ -250,9 +250,9 @@ Parameters World::Implementation::parameters_now() const
   const float before = plan.substeps.of_cache, now = plan.substeps.now;
   if (plan.substeps.automatic) parameters.warm_start_scale = before / now;
   parameters.joints = static_cast<uint32_t>(scene.joints.size());
-  parameters.joint_axes = most_axes_of_joint(scene);
+  parameters.joint_axes = joint_graph.axes;
   parameters.joined_pairs_first = first_joined_pair(sizes());
-  parameters.joined_pairs_mask = std::max(joined_pair_entries(scene), 1u) - 1;
+  parameters.joined_pairs_mask = std::max(joint_graph.joined_pairs, 1u) - 1;
   return parameters;
 }
 
