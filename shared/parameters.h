@@ -38,7 +38,7 @@ typedef struct {
   PARAMETER_REAL gravity_length;       /* m/s^2 */
   PARAMETER_REAL sleep_speed;          /* m/s, bodies of a metre and more rest below it */
   PARAMETER_REAL zero;                 /* 0, of which no compiler knows: docs/exactness.md, rusticl */
-  PARAMETER_REAL unused;               /* for an even number */
+  PARAMETER_REAL spin_fall;            /* m/s^2, half of gravity if spin limits what is left in place, else 0 */
   uint sleep_steps; /* of rest, before a body may fall asleep */
   ulong features;   /* a bit for each row of features.def; an even number of reals stands before */
 } Parameters;

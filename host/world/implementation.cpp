@@ -242,7 +242,9 @@ Parameters World::Implementation::parameters_now() const
 {
   Parameters parameters = parameters_of(scene, settings_in_use, special.features, special.median);
   const float before = plan.substeps.of_cache, now = plan.substeps.now;
-  if (plan.substeps.automatic) parameters.warm_start_scale = before / now;
+  if (!plan.substeps.automatic) return parameters;
+  parameters.warm_start_scale = before / now;
+  parameters.spin_fall = 0.5f * parameters.gravity_length;
   return parameters;
 }
 

@@ -52,24 +52,31 @@ typedef struct {
   uint lower, upper;
   real inverse_mass, inverse_mass_upper; /* 1/kg; the first of both together */
   real heavier;                          /* 1/kg, the smaller inverse mass that is not 0 */
-  real up;                               /* the cosine, negative if b is above a */
   real closing;                          /* m/s */
 } standing_pair;
 
-SHARED standing_pair standing_pair_of(GLOBAL const Parameters *parameters, read_contacts contacts,
-                                      GLOBAL const float4 *solver_velocity, uint i)
+/* The cosine between gravity and the normal of the contact; 0 without gravity. */
+SHARED real steepness(GLOBAL const Parameters *parameters, read_contacts contacts, uint i)
+{
+  if (!(parameters->gravity_length > R(0.0))) return R(0.0);
+  vec3 normal = xyz(load_float4(contacts.normal, i));
+  return dot3(gravity_of(parameters), normal) / parameters->gravity_length;
+}
+
+/* This is asked before bodies are read, which lie anywhere in memory. */
+SHARED uint may_stand(real up) { return up * up >= STANDS ? 1u : 0u; }
+
+SHARED standing_pair standing_pair_of(read_contacts contacts, GLOBAL const float4 *solver_velocity, real up, uint i)
 {
   uint a = contacts.a[i], b = contacts.b[i];
   spatial_velocity of_a = load_velocity(solver_velocity, a), of_b = load_velocity(solver_velocity, b);
   vec3 normal = xyz(load_float4(contacts.normal, i));
-  real up = dot3(gravity_of(parameters), normal) / parameters->gravity_length;
   real least = minimum(of_a.inverse_mass, of_b.inverse_mass), sum = of_a.inverse_mass + of_b.inverse_mass;
   standing_pair p = {up < R(0.0) ? a : b,
                      up < R(0.0) ? b : a,
                      sum,
                      up < R(0.0) ? of_b.inverse_mass : of_a.inverse_mass,
                      least > R(0.0) ? least : sum,
-                     up,
                      dot3(normal, subtract(of_a.linear, of_b.linear))};
   return p;
 }
@@ -93,11 +100,11 @@ SHARED uint stands_near(GLOBAL const Parameters *parameters, GLOBAL const memory
   return 0u;
 }
 
-/* Whether the contact bears its upper body, or is about to. */
+/* Whether the contact, which may stand, bears its upper body, or is about to. */
 SHARED uint stands(GLOBAL const Parameters *parameters, const standing_pair *p, real borne,
                    GLOBAL const memory_real *constraint_points, point_planes planes, uint i)
 {
-  if (!(p->up * p->up >= STANDS) || !(p->inverse_mass_upper > R(0.0))) return 0u;
+  if (!(p->inverse_mass_upper > R(0.0))) return 0u;
   if (borne > R(0.0)) return 1u;
   if (p->closing > parameters->gravity_length * parameters->step) return 0u;
   return stands_near(parameters, constraint_points, planes, i);
@@ -109,8 +116,9 @@ SHARED void count_supports_item(GLOBAL const Parameters *parameters, GLOBAL cons
                                 GLOBAL const float4 *constraint_normal_impulse, GLOBAL const uint *counts,
                                 GLOBAL uint *body_supports, uint i)
 {
-  if (!(parameters->gravity_length > R(0.0))) return;
-  standing_pair p = standing_pair_of(parameters, contacts, solver_velocity, i);
+  real up = steepness(parameters, contacts, i);
+  if (!may_stand(up)) return;
+  standing_pair p = standing_pair_of(contacts, solver_velocity, up, i);
   real borne = force_borne(parameters, constraint_normal_impulse, i);
   if (stands(parameters, &p, borne, constraint_points, planes_of(counts), i) != 0u)
     ATOMIC_ADD(body_supports + p.upper, 1u);
@@ -152,15 +160,16 @@ SHARED void note_braced(GLOBAL const Parameters *parameters, uint layers, uint l
 }
 
 /* standing_above: of the pass before, or of the last step. standing: is 0 before. layers_at_start: COUNT_BRACED_LAYERS
- * of the first step of the world, INDEX_NONE in that step. */
+ * of the first step of the world, INDEX_NONE in that step. Where it is 0, supports were not counted. */
 SHARED void weigh_standing_item(GLOBAL const Parameters *parameters, GLOBAL const float4 *body_shape,
                                 GLOBAL const float4 *solver_velocity, read_contacts contacts,
                                 read_loads_before loads_before, GLOBAL const memory_real *constraint_points,
                                 GLOBAL const uint *body_supports, GLOBAL const uint *standing_above,
                                 GLOBAL uint *standing, GLOBAL uint *counts, uint layers_at_start, uint i)
 {
-  if (!(parameters->gravity_length > R(0.0))) return;
-  standing_pair p = standing_pair_of(parameters, contacts, solver_velocity, i);
+  real up = steepness(parameters, contacts, i);
+  if (!may_stand(up)) return;
+  standing_pair p = standing_pair_of(contacts, solver_velocity, up, i);
   real borne = force_borne(parameters, loads_before.normal_impulse, i);
   if (stands(parameters, &p, borne, constraint_points, planes_of(counts), i) == 0u) return;
   uint is_new = loads_before.cached[loads_before.pair[i]] == INDEX_NONE ? 1u : 0u;
@@ -179,7 +188,8 @@ SHARED void weigh_standing_item(GLOBAL const Parameters *parameters, GLOBAL cons
   if (size > R(0.0)) slop = minimum(slop, share * size);
   else size = R(0.5);
   note_rate(parameters, rate_needed(parameters, &p, load, layers, slop, size), counts);
-  if (body_supports[p.upper] > 1u) note_braced(parameters, layers, layers_at_start, share * size, counts);
+  if (layers_at_start != 0u && body_supports[p.upper] > 1u)
+    note_braced(parameters, layers, layers_at_start, share * size, counts);
 }
 
 #endif
