@@ -93,6 +93,8 @@ SHARED item_index operator+(uint32_t offset, item_index i) { return {i.first + o
 SHARED uint_lanes operator*(item_index i, uint32_t factor) { return uint_lanes(i) * uint_lanes(factor); }
 
 SHARED real to_real(uint_lanes x) { return real(__builtin_convertvector((int_vector)x.v, float_vector)); }
+SHARED uint_lanes real_bits(real x) { return uint_lanes((uint_vector)x.v); }
+SHARED real real_of_bits(uint_lanes bits) { return real((float_vector)bits.v); }
 SHARED real int_to_real(uint_lanes x) { return to_real(x); }
 SHARED uint_lanes to_uint(real x) { return uint_lanes((uint_vector) __builtin_convertvector(x.v, int_vector)); }
 
@@ -119,6 +121,16 @@ SHARED void atomic_min_if(mask m, uint *to, uint at, uint_lanes value)
 {
   for (int lane = 0; lane < width; ++lane)
     if (m.v[lane]) atomic_min_uint(to + at, value.v[lane]);
+}
+SHARED void atomic_max_if(mask m, uint *to, uint_lanes at, uint_lanes value)
+{
+  for (int lane = 0; lane < width; ++lane)
+    if (m.v[lane]) atomic_max_uint(to + at.v[lane], value.v[lane]);
+}
+SHARED void atomic_add_if(mask m, uint *to, uint_lanes at, uint value)
+{
+  for (int lane = 0; lane < width; ++lane)
+    if (m.v[lane]) atomic_add_uint(to + at.v[lane], value);
 }
 SHARED void atomic_clear_if(mask m, uint *to, uint_lanes at)
 {

@@ -42,7 +42,7 @@ typedef struct {
   PARAMETER_REAL joint_bias_rate;      /* 1/s, soft joint: gaps are closed at this rate; the three as for contacts */
   PARAMETER_REAL joint_mass_scale;
   PARAMETER_REAL joint_impulse_scale;
-  PARAMETER_REAL unused_real; /* for an even number */
+  PARAMETER_REAL spin_fall; /* m/s^2, half of gravity if spin limits what is left in place, else 0 */
   uint sleep_steps;        /* of rest, before a body may fall asleep; the first whole number */
   uint joined_pairs_first; /* the first entry of body_filter that holds pairs of bodies that do not collide */
   uint joined_pairs_mask;  /* their number, a power of two, minus 1: broadphase/joined_pairs.h */

@@ -53,7 +53,8 @@ SHARED uint_lanes to_uint(real x) { return (uint_lanes)(int)x; }
 SHARED real to_real(uint_lanes x) { return (real)x; }
 SHARED real int_to_real(uint_lanes two_complement) { return (real)(int)two_complement; }
 
-SHARED uint real_bits(real x) { return FLOAT_BITS(x); }
+SHARED uint_lanes real_bits(real x) { return FLOAT_BITS(x); }
+SHARED real real_of_bits(uint_lanes bits) { return BITS_FLOAT(bits); }
 
 SHARED real load_real(GLOBAL const memory_real *from, uint_lanes i) { return from[i]; }
 SHARED uint_lanes load_uint(GLOBAL const uint *from, uint_lanes i) { return from[i]; }
@@ -66,6 +67,14 @@ SHARED void store_uint_if(mask m, GLOBAL uint *to, uint_lanes i, uint_lanes valu
 SHARED void atomic_min_if(mask m, GLOBAL uint *to, uint at, uint_lanes value)
 {
   if (m) ATOMIC_MIN(to + at, value);
+}
+SHARED void atomic_max_if(mask m, GLOBAL uint *to, uint_lanes at, uint_lanes value)
+{
+  if (m) ATOMIC_MAX(to + at, value);
+}
+SHARED void atomic_add_if(mask m, GLOBAL uint *to, uint_lanes at, uint value)
+{
+  if (m) ATOMIC_ADD(to + at, value);
 }
 SHARED void atomic_clear_if(mask m, GLOBAL uint *to, uint_lanes at)
 {

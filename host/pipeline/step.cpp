@@ -45,7 +45,6 @@ public:
     if (plan().apart) expect_no_pairs();
     else find_constraints();
     if (plan().substeps.automatic) {
-      run(Kernel::limit_slop);
       count_supports();
       weigh_standing();
     }
@@ -195,8 +194,9 @@ private:
 
   void count_supports()
   {
+    if (layers_at_start() == 0) return;
     run_range(Kernel::fill, COUNT_ZERO, COUNT_BODIES, {0}, {Buffer::body_supports});
-    if (layers_at_start() > 0) run(Kernel::count_supports);
+    run(Kernel::count_supports);
   }
 
   /* A step carries what stands on a body down by one layer. The first step of a world carries it down through stacks,

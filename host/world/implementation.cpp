@@ -248,11 +248,13 @@ Parameters World::Implementation::parameters_now() const
 {
   Parameters parameters = parameters_of(scene, settings_in_use, special.features, special.median);
   const float before = plan.substeps.of_cache, now = plan.substeps.now;
-  if (plan.substeps.automatic) parameters.warm_start_scale = before / now;
   parameters.joints = static_cast<uint32_t>(scene.joints.size());
   parameters.joint_axes = joint_graph.axes;
   parameters.joined_pairs_first = first_joined_pair(sizes());
   parameters.joined_pairs_mask = std::max(joint_graph.joined_pairs, 1u) - 1;
+  if (!plan.substeps.automatic) return parameters;
+  parameters.warm_start_scale = before / now;
+  parameters.spin_fall = 0.5f * parameters.gravity_length;
   return parameters;
 }
 

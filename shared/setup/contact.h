@@ -14,6 +14,7 @@
 #include "shared/argument_groups.h"
 #include "shared/point_rows.h"
 #include "shared/records.h"
+#include "shared/setup/spin_slop.h"
 
 /* Below this sliding speed contacts count as sticking, and the static coefficient holds, m/s. */
 #define STICKING_SPEED R(0.01)
@@ -457,7 +458,9 @@ SHARED void prepare_contacts_item(GLOBAL const Parameters *parameters, GLOBAL co
   store_listed_uint_if(s.wanted, constraints.b, at, s.bodies.b);
   store_listed_row_if(s.wanted, constraints.normal_impulse, at,
                       make_vec4(points.impulse[0], points.impulse[1], points.impulse[2], points.impulse[3]));
-  store_listed_real_if(s.wanted, constraints.slop, at, slop_or_deep(parameters, s.size, points.deepest));
+  store_listed_real_if(s.wanted, constraints.slop, at,
+                       limited_by_spin(parameters, s.bodies.velocity_a, s.bodies.velocity_b,
+                                       slop_or_deep(parameters, s.size, points.deepest)));
   if (HAS_FEATURE(parameters, RESTITUTION)) store_restitution(&s, &points, planes.stride, constraints.restitution);
 }
 

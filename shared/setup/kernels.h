@@ -6,9 +6,6 @@
 
 #include "shared/setup/contact.h"
 #include "shared/setup/rolling.h"
-#ifndef TANDEM_LANES /* ITEM kernels take one item at a time */
-#include "shared/setup/spin_slop.h"
 #include "shared/setup/standing.h"
-#endif
 
 #endif

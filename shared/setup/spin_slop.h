@@ -7,24 +7,22 @@
 #ifndef TANDEM_SHARED_SETUP_SPIN_SLOP_H
 #define TANDEM_SHARED_SETUP_SPIN_SLOP_H
 
-#include "shared/setup/contact.h"
+#include "shared/records.h"
 
 /* 1/s^2; 0 of what no impulse can change. */
-SHARED real spin_squared(GLOBAL const float4 *solver_velocity, uint body)
+SHARED real spin_squared(spatial_velocity m)
 {
-  spatial_velocity m = load_velocity(solver_velocity, body);
-  return m.inverse_mass > R(0.0) ? length_squared(m.angular) : R(0.0);
+  return choose(m.inverse_mass > R(0.0), length_squared(m.angular), (real)R(0.0));
 }
 
 /* Without gravity nothing settles. A contact that counts as deep keeps counting so. */
-SHARED void limit_slop_item(GLOBAL const Parameters *parameters, GLOBAL const float4 *solver_velocity,
-                            GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
-                            GLOBAL memory_real *constraint_slop, uint i)
+SHARED real limited_by_spin(GLOBAL const Parameters *parameters, spatial_velocity a, spatial_velocity b,
+                            real slop_or_deep)
 {
-  real squared =
-      maximum(spin_squared(solver_velocity, constraint_a[i]), spin_squared(solver_velocity, constraint_b[i]));
-  real fall = R(0.5) * parameters->gravity_length, slop = constraint_slop[i];
-  if (fall > R(0.0) && slop * squared > fall) constraint_slop[i] = fall / squared;
+  real fall = parameters->spin_fall;
+  if (!(parameters->spin_fall > R(0.0))) return slop_or_deep;
+  real squared = maximum(spin_squared(a), spin_squared(b));
+  return choose(slop_or_deep * squared > fall, fall / squared, slop_or_deep);
 }
 
 #endif

@@ -49,7 +49,7 @@
 #define PASSED_ON R(4.0)
 
 typedef struct {
-  uint lower, upper;
+  uint_lanes lower, upper;
   real inverse_mass, inverse_mass_upper; /* 1/kg; the first of both together */
   real heavier;                          /* 1/kg, the smaller inverse mass that is not 0 */
   real up;                               /* the cosine, negative if b is above a */
@@ -57,129 +57,143 @@ typedef struct {
 } standing_pair;
 
 SHARED standing_pair standing_pair_of(GLOBAL const Parameters *parameters, read_contacts contacts,
-                                      GLOBAL const float4 *solver_velocity, uint i)
+                                      GLOBAL const float4 *solver_velocity, item_index i)
 {
-  uint a = contacts.a[i], b = contacts.b[i];
+  uint_lanes a = load_uint(contacts.a, i), b = load_uint(contacts.b, i);
   spatial_velocity of_a = load_velocity(solver_velocity, a), of_b = load_velocity(solver_velocity, b);
   vec3 normal = xyz(load_float4(contacts.normal, i));
-  real up = dot3(gravity_of(parameters), normal) / parameters->gravity_length;
   real least = minimum(of_a.inverse_mass, of_b.inverse_mass), sum = of_a.inverse_mass + of_b.inverse_mass;
-  standing_pair p = {up < R(0.0) ? a : b,
-                     up < R(0.0) ? b : a,
-                     sum,
-                     up < R(0.0) ? of_b.inverse_mass : of_a.inverse_mass,
-                     least > R(0.0) ? least : sum,
-                     up,
-                     dot3(normal, subtract(of_a.linear, of_b.linear))};
+  standing_pair p;
+  p.up = dot3(gravity_of(parameters), normal) / parameters->gravity_length;
+  mask b_above = p.up < R(0.0);
+  p.lower = choose(b_above, a, b);
+  p.upper = choose(b_above, b, a);
+  p.inverse_mass = sum;
+  p.inverse_mass_upper = choose(b_above, of_b.inverse_mass, of_a.inverse_mass);
+  p.heavier = choose(least > R(0.0), least, sum);
+  p.closing = dot3(normal, subtract(of_a.linear, of_b.linear));
   return p;
 }
 
 /* The force that the contact bore in the last step, N; 0 if it is new. */
-SHARED real force_borne(GLOBAL const Parameters *parameters, GLOBAL const float4 *constraint_normal_impulse, uint i)
+SHARED real force_borne(GLOBAL const Parameters *parameters, GLOBAL const float4 *constraint_normal_impulse,
+                        item_index i)
 {
   vec4 impulse = load_float4(constraint_normal_impulse, i);
   return ((impulse.x + impulse.y) + (impulse.z + impulse.w)) * parameters->inverse_substep;
 }
 
 /* Whether some point is as near as gravity closes within the step. */
-SHARED uint stands_near(GLOBAL const Parameters *parameters, GLOBAL const memory_real *constraint_points,
-                        point_planes planes, uint i)
+SHARED mask stands_near(GLOBAL const Parameters *parameters, GLOBAL const memory_real *constraint_points,
+                        point_planes planes, item_index i)
 {
   real reach = R(0.5) * parameters->gravity_length * parameters->step * parameters->step;
+  mask near = reach < R(0.0); /* none yet */
   for (uint k = 0; k < 4u; ++k)
-    if (load_point_mass(constraint_points, planes, k, i) > R(0.0) &&
-        load_separation(constraint_points, planes, k, i) <= reach)
-      return 1u;
-  return 0u;
+    near = near | ((load_point_mass(constraint_points, planes, k, i) > R(0.0)) &
+                   (load_separation(constraint_points, planes, k, i) <= reach));
+  return near;
 }
 
 /* Whether the contact bears its upper body, or is about to. */
-SHARED uint stands(GLOBAL const Parameters *parameters, const standing_pair *p, real borne,
-                   GLOBAL const memory_real *constraint_points, point_planes planes, uint i)
+SHARED mask stands(GLOBAL const Parameters *parameters, const standing_pair *p, real borne,
+                   GLOBAL const memory_real *constraint_points, point_planes planes, item_index i)
 {
-  if (!(p->up * p->up >= STANDS) || !(p->inverse_mass_upper > R(0.0))) return 0u;
-  if (borne > R(0.0)) return 1u;
-  if (p->closing > parameters->gravity_length * parameters->step) return 0u;
-  return stands_near(parameters, constraint_points, planes, i);
+  mask may_stand = (p->up * p->up >= STANDS) & (p->inverse_mass_upper > R(0.0));
+  mask bears = may_stand & (borne > R(0.0));
+  mask closes = may_stand & !bears & !(p->closing > parameters->gravity_length * parameters->step);
+  if (any_of(closes)) bears = bears | (closes & stands_near(parameters, constraint_points, planes, i));
+  return bears;
 }
 
 /* On how many contacts each body stands. supports: is 0 before. */
 SHARED void count_supports_item(GLOBAL const Parameters *parameters, GLOBAL const float4 *solver_velocity,
                                 read_contacts contacts, GLOBAL const memory_real *constraint_points,
                                 GLOBAL const float4 *constraint_normal_impulse, GLOBAL const uint *counts,
-                                GLOBAL uint *body_supports, uint i)
+                                GLOBAL uint *body_supports, item_index i)
 {
   if (!(parameters->gravity_length > R(0.0))) return;
   standing_pair p = standing_pair_of(parameters, contacts, solver_velocity, i);
   real borne = force_borne(parameters, constraint_normal_impulse, i);
-  if (stands(parameters, &p, borne, constraint_points, planes_of(counts), i) != 0u)
-    ATOMIC_ADD(body_supports + p.upper, 1u);
+  atomic_add_if(stands(parameters, &p, borne, constraint_points, planes_of(counts), i), body_supports, p.upper, 1u);
 }
 
 /* The square of the rate of substeps at which so many layers of bodies that rest on several come to rest or sway by
  * `bearable`, 1/s^2. */
-SHARED real rate_of_braced(GLOBAL const Parameters *parameters, uint layers, real bearable)
+SHARED real rate_of_braced(GLOBAL const Parameters *parameters, uint_lanes layers, real bearable)
 {
-  real rests = BRACED_REST * (real)layers * (real)layers;
+  real rests = BRACED_REST * to_real(layers) * to_real(layers);
   return minimum(rests * rests, BRACED_SWAY * parameters->gravity_length / bearable);
 }
 
 /* The square of the rate of substeps that the contact needs, 1/s^2. */
-SHARED real rate_needed(GLOBAL const Parameters *parameters, const standing_pair *p, real load, uint layers, real slop,
-                        real size)
+SHARED real rate_needed(GLOBAL const Parameters *parameters, const standing_pair *p, real load, uint_lanes layers,
+                        real slop, real size)
 {
   real sinks = load * p->inverse_mass / (STIFFEST_CONTACT * BEARABLE_SINK * slop);
-  real tall = minimum((real)layers, load * p->heavier / parameters->gravity_length);
+  real tall = minimum(to_real(layers), load * p->heavier / parameters->gravity_length);
   real buckles = tall * tall * tall * parameters->gravity_length / (STIFFEST_STACK * R(2.0) * size);
   return maximum(sinks, buckles);
 }
 
-/* Rates that the fewest substeps have are not noted, so that few contacts meet at the maximum. */
-SHARED uint note_rate(GLOBAL const Parameters *parameters, real rate, GLOBAL uint *counts)
+/* Rates that the fewest substeps have are not noted, so that few contacts meet at the maximum. Returns what is. */
+SHARED mask note_rate(GLOBAL const Parameters *parameters, mask wanted, real rate, GLOBAL uint *counts)
 {
   real fewest = minimum(FEWEST_SUBSTEPS / parameters->step, SOFTEST_RATE);
-  if (!(rate > fewest * fewest)) return 0u;
-  ATOMIC_MAX(counts + COUNT_LOAD_RATE, FLOAT_BITS(minimum(rate, HIGHEST_RATE)));
-  return 1u;
+  mask noted = wanted & (rate > fewest * fewest);
+  if (any_of(noted))
+    atomic_max_if(noted, counts, (uint_lanes)(uint)COUNT_LOAD_RATE, real_bits(minimum(rate, HIGHEST_RATE)));
+  return noted;
 }
 
-SHARED void note_braced(GLOBAL const Parameters *parameters, uint layers, uint layers_at_start, real bearable,
-                        GLOBAL uint *counts)
+SHARED void note_braced(GLOBAL const Parameters *parameters, mask wanted, uint_lanes layers, uint layers_at_start,
+                        real bearable, GLOBAL uint *counts)
 {
-  uint counted = layers < layers_at_start ? layers : layers_at_start;
-  uint noted = note_rate(parameters, rate_of_braced(parameters, counted, bearable), counts);
-  if (layers_at_start == INDEX_NONE && noted != 0u) ATOMIC_MAX(counts + COUNT_BRACED_LAYERS, layers);
+  uint_lanes at_start = layers_at_start, counted = choose(layers < at_start, layers, at_start);
+  mask noted = note_rate(parameters, wanted, rate_of_braced(parameters, counted, bearable), counts);
+  if (layers_at_start == INDEX_NONE && any_of(noted))
+    atomic_max_if(noted, counts, (uint_lanes)(uint)COUNT_BRACED_LAYERS, layers);
+}
+
+/* The load on a contact that bears `borne`, N: of what stands on its upper body, which it passes on to the lower. */
+SHARED real pass_on(GLOBAL const Parameters *parameters, mask wanted, const standing_pair *p, real borne,
+                    uint_lanes layers, real above, GLOBAL uint *standing)
+{
+  real weight = R(1.0) / p->inverse_mass_upper + above;
+  weight = choose(borne > R(0.0), minimum(weight, PASSED_ON * borne / parameters->gravity_length), weight);
+  mask lower_moves = wanted & (p->inverse_mass > p->inverse_mass_upper); /* what cannot move bears everything */
+  atomic_max_if(lower_moves, standing, p->lower * 2u, layers);
+  atomic_max_if(lower_moves, standing, p->lower * 2u + 1u, real_bits(weight));
+  return parameters->gravity_length * weight;
 }
 
 /* standing_above: of the pass before, or of the last step. standing: is 0 before. layers_at_start: COUNT_BRACED_LAYERS
- * of the first step of the world, INDEX_NONE in that step. */
+ * of the first step of the world, INDEX_NONE in that step. Where it is 0, supports were not counted. */
 SHARED void weigh_standing_item(GLOBAL const Parameters *parameters, GLOBAL const float4 *body_shape,
                                 GLOBAL const float4 *solver_velocity, read_contacts contacts,
                                 read_loads_before loads_before, GLOBAL const memory_real *constraint_points,
                                 GLOBAL const uint *body_supports, GLOBAL const uint *standing_above,
-                                GLOBAL uint *standing, GLOBAL uint *counts, uint layers_at_start, uint i)
+                                GLOBAL uint *standing, GLOBAL uint *counts, uint layers_at_start, item_index i)
 {
   if (!(parameters->gravity_length > R(0.0))) return;
   standing_pair p = standing_pair_of(parameters, contacts, solver_velocity, i);
   real borne = force_borne(parameters, loads_before.normal_impulse, i);
-  if (stands(parameters, &p, borne, constraint_points, planes_of(counts), i) == 0u) return;
-  uint is_new = loads_before.cached[loads_before.pair[i]] == INDEX_NONE ? 1u : 0u;
-  uint layers = standing_above[2u * p.upper] + 1u;
-  real weight = R(1.0) / p.inverse_mass_upper + BITS_FLOAT(standing_above[2u * p.upper + 1u]);
-  if (borne > R(0.0)) weight = minimum(weight, PASSED_ON * borne / parameters->gravity_length);
-  if (p.inverse_mass > p.inverse_mass_upper) { /* what cannot move bears everything */
-    ATOMIC_MAX(standing + 2u * p.lower, layers);
-    ATOMIC_MAX(standing + 2u * p.lower + 1u, FLOAT_BITS(weight));
-  }
-  real load = parameters->gravity_length * weight;
-  if (!is_new) load = minimum(load, borne);
-  real size = size_between(body_shape, contacts.a[i], contacts.b[i]);
+  mask bears = stands(parameters, &p, borne, constraint_points, planes_of(counts), i);
+  if (!any_of(bears)) return;
+  mask is_new = load_uint(loads_before.cached, load_uint(loads_before.pair, i)) == (uint_lanes)INDEX_NONE;
+  uint_lanes layers = load_uint(standing_above, p.upper * 2u) + 1u;
+  real above = real_of_bits(load_uint(standing_above, p.upper * 2u + 1u));
+  real load = pass_on(parameters, bears, &p, borne, layers, above, standing);
+  load = choose(is_new, load, minimum(load, borne));
+  real size = size_between(body_shape, load_uint(contacts.a, i), load_uint(contacts.b, i));
   real slop = parameters->slop > R(0.0) ? parameters->slop : USUAL_SLOP;
   real share = parameters->slop_share > R(0.0) ? parameters->slop_share : USUAL_SLOP_SHARE;
-  if (size > R(0.0)) slop = minimum(slop, share * size);
-  else size = R(0.5);
-  note_rate(parameters, rate_needed(parameters, &p, load, layers, slop, size), counts);
-  if (body_supports[p.upper] > 1u) note_braced(parameters, layers, layers_at_start, share * size, counts);
+  slop = choose(size > R(0.0), minimum(slop, share * size), slop);
+  size = choose(size > R(0.0), size, (real)R(0.5));
+  note_rate(parameters, bears, rate_needed(parameters, &p, load, layers, slop, size), counts);
+  if (layers_at_start == 0u) return;
+  mask is_braced = bears & (load_uint(body_supports, p.upper) > (uint_lanes)1u);
+  note_braced(parameters, is_braced, layers, layers_at_start, share * size, counts);
 }
 
 #endif
