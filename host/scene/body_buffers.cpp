@@ -164,18 +164,19 @@ namespace {
 struct MassRows {
   std::vector<float4> mass;
   std::vector<uint32_t> locks;
-  std::vector<float> speeds;
+  std::vector<float> damping, speeds;
 
   void add(const Scene &scene, const Body &body)
   {
     mass.push_back(float4_of_vec(inverse_inertia_of(scene, body), body.gravity_factor));
-    mass.push_back({body.linear_damping, body.angular_damping, 0, 0});
+    damping.insert(damping.end(), {body.linear_damping, body.angular_damping});
     locks.push_back(locks_of(body));
     speeds.insert(speeds.end(), {body.max_linear_speed, body.max_angular_speed});
   }
   void stage(StagedUploads &uploads, size_t first)
   {
     uploads.add(Buffer::body_mass, std::move(mass), first);
+    uploads.add(Buffer::body_damping, std::move(damping), first);
     uploads.add(Buffer::body_lock, std::move(locks), first);
     uploads.add(Buffer::body_max_speed, std::move(speeds), first);
   }
