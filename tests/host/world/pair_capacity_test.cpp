@@ -80,6 +80,17 @@ TEST_CASE("the first step that outgrows its room makes hardly more than it needs
   CHECK(grown >= 2);
 }
 
+TEST_CASE("bodies that cannot be pushed have no room for pairs of their own")
+{
+  Scene few = burst(600), many = few;
+  few.bodies.resize(1);
+  for (size_t i = 1; i < many.bodies.size(); ++i) many.bodies[i].type = BodyType::fixed;
+  World pushed(burst(600), {}, {"serial", {}}), alone(few, {}, {"serial", {}}), beside(many, {}, {"serial", {}});
+  const auto room = [](World &world) { return world.memory().bytes(Buffer::pair_b) / sizeof(uint32_t); };
+  CHECK(room(pushed) == 1200);
+  CHECK(room(beside) == room(alone));
+}
+
 TEST_CASE("room that is reserved between steps keeps the cache of contacts")
 {
   World plain(burst(balls)), other(burst(balls));
