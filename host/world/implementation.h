@@ -111,6 +111,7 @@ struct World::Implementation {
   struct Attempt {
     StepPlan plan;
     Statistics statistics;
+    std::optional<uint64_t> first_outgrown;
     size_t quarantined;
   };
   void step(const StepLimits &limits);
