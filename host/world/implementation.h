@@ -24,6 +24,8 @@
 #include "host/runtime/memory.h"
 #include "host/runtime/recorder.h"
 #include "host/scene/body_buffers.h"
+#include "host/scene/body_records.h"
+#include "host/scene/buffer_measures.h"
 #include "host/scene/hull_buffers.h"
 #include "host/scene/specialise.h"
 #include "host/scene/tree_tables.h"
