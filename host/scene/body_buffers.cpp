@@ -1,13 +1,10 @@
-/* body_buffers.cpp - packs and unpacks body records; see body_buffers.h. */
+/* body_buffers.cpp - packs the rows of bodies and their shapes; see body_buffers.h. */
 #include "host/scene/body_buffers.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include <tandem/round_to_float.h>
 
-#include "host/base/finite_vector.h"
-#include "host/base/hash.h"
 #include "host/geometry/shape_mass.h"
 #include "host/scene/hull_buffers.h"
 #include "host/scene/joint_buffers.h"
@@ -15,19 +12,9 @@
 #include "host/scene/specialise.h"
 #include "host/scene/tree_tables.h"
 #include "shared/body_codes.h"
-#include "shared/counts.h"
 
 namespace tandem {
 namespace {
-
-float4 float4_of_vec(const Vec3 &v, float w) { return {v[0], v[1], v[2], w}; }
-Vec3 vec_of_float4(const float4 &r) { return {r.x, r.y, r.z}; }
-
-Point point_of(const float4 *place)
-{
-  return {double{place[0].x} + double{place[1].x}, double{place[0].y} + double{place[1].y},
-          double{place[0].z} + double{place[1].z}};
-}
 
 /* A shape as it is placed in a body: the body's own, or a child of its compound. */
 struct PlacedShape {
@@ -66,8 +53,6 @@ uint32_t flags_of(const Scene &scene, const PlacedShape &placed)
          (placed.body->trigger ? uint32_t{BODY_FLAG_TRIGGER} : 0u) |
          (placed.body->continuous ? uint32_t{BODY_FLAG_CONTINUOUS} : 0u);
 }
-
-uint32_t as_absent(uint32_t flags) { return (flags & ~(3u << 3)) | uint32_t{BODY_TYPE_QUARANTINED} << 3; }
 
 /* A slot without a body: a point that takes part in nothing. */
 constexpr uint32_t flags_of_free_slot = uint32_t{BODY_TYPE_QUARANTINED} << 3 | uint32_t{SHAPE_SPHERE};
@@ -147,6 +132,10 @@ Vec3 velocity_of(const Body &body, const Vec3 &velocity)
 
 } // namespace
 
+float4 float4_of_vec(const Vec3 &v, float w) { return {v[0], v[1], v[2], w}; }
+
+uint32_t as_absent(uint32_t flags) { return (flags & ~(3u << 3)) | uint32_t{BODY_TYPE_QUARANTINED} << 3; }
+
 float inverse_mass_of(const Body &body) { return body.type == BodyType::dynamic ? 1.0f / body.mass : 0.0f; }
 
 std::array<float4, 2> double_float3_of(const Point &p)
@@ -171,18 +160,19 @@ namespace {
 struct MassRows {
   std::vector<float4> mass;
   std::vector<uint32_t> locks;
-  std::vector<float> speeds;
+  std::vector<float> damping, speeds;
 
   void add(const Scene &scene, const Body &body)
   {
     mass.push_back(float4_of_vec(inverse_inertia_of(scene, body), body.gravity_factor));
-    mass.push_back({body.linear_damping, body.angular_damping, 0, 0});
+    damping.insert(damping.end(), {body.linear_damping, body.angular_damping});
     locks.push_back(locks_of(body));
     speeds.insert(speeds.end(), {body.max_linear_speed, body.max_angular_speed});
   }
   void stage(StagedUploads &uploads, size_t first)
   {
     uploads.add(Buffer::body_mass, std::move(mass), first);
+    uploads.add(Buffer::body_damping, std::move(damping), first);
     uploads.add(Buffer::body_lock, std::move(locks), first);
     uploads.add(Buffer::body_max_speed, std::move(speeds), first);
   }
@@ -335,191 +325,6 @@ void stage_materials(StagedUploads &uploads, const Scene &scene)
   }
   uploads.add(Buffer::material, std::move(rows));
   uploads.add(Buffer::material_rolling, std::move(rolling));
-}
-
-namespace {
-
-/* Writes all but the flags. Everything that can fail for lack of memory comes before the first change. */
-void write_state(Memory &memory, uint32_t index, const BodyRecord &record)
-{
-  for (const Buffer buffer : {Buffer::body_position, Buffer::body_orientation, Buffer::body_velocity})
-    memory.prepare_upload(buffer);
-  memory.upload(Buffer::body_position, record.position.data(), 2 * sizeof(float4), 2 * size_t{index} * sizeof(float4));
-  memory.upload(Buffer::body_orientation, &record.orientation, sizeof(float4), size_t{index} * sizeof(float4));
-  memory.upload(Buffer::body_velocity, record.velocity.data(), 2 * sizeof(float4), 2 * size_t{index} * sizeof(float4));
-}
-
-} // namespace
-
-BodyRecord read_body(Memory &memory, uint32_t index)
-{
-  const auto position = memory.read<float4>(Buffer::body_position, 2, 2 * size_t{index}),
-             velocity = memory.read<float4>(Buffer::body_velocity, 2, 2 * size_t{index});
-  const float4 orientation = memory.read<float4>(Buffer::body_orientation, 1, index).front();
-  return {{position[0], position[1]},
-          orientation,
-          {velocity[0], velocity[1]},
-          memory.read<uint32_t>(Buffer::body_flags, 1, index).front()};
-}
-
-void write_body(Memory &memory, uint32_t index, const BodyRecord &record)
-{
-  memory.prepare_upload(Buffer::body_flags);
-  write_state(memory, index, record);
-  memory.upload(Buffer::body_flags, &record.flags, sizeof record.flags, size_t{index} * sizeof record.flags);
-}
-
-void upload_body(Memory &memory, uint32_t index, const BodyState &state)
-{
-  const Quat q = unit(state.orientation);
-  const auto place = double_float3_of(state.position);
-  const float4 orientation{q[0], q[1], q[2], q[3]};
-  const auto velocity = memory.read<float4>(Buffer::body_velocity, 2, 2 * size_t{index});
-  const float4 linear = float4_of_vec(state.linear_velocity, velocity[0].w),
-               angular = float4_of_vec(state.angular_velocity, velocity[1].w);
-  write_state(memory, index, {place, orientation, {linear, angular}, 0});
-}
-
-namespace {
-
-BodyState state_of(const float4 *position, const float4 &orientation, const float4 *velocity)
-{
-  return {point_of(position),
-          {orientation.x, orientation.y, orientation.z, orientation.w},
-          vec_of_float4(velocity[0]),
-          vec_of_float4(velocity[1])};
-}
-
-} // namespace
-
-BodyState download_body(Memory &memory, uint32_t index)
-{
-  const BodyRecord record = read_body(memory, index);
-  return state_of(record.position.data(), record.orientation, record.velocity.data());
-}
-
-std::vector<BodyState> download_bodies(Memory &memory, const std::vector<uint32_t> &order)
-{
-  const size_t n = order.size();
-  const auto position = memory.read<float4>(Buffer::body_position, 2 * n),
-             orientation = memory.read<float4>(Buffer::body_orientation, n);
-  const auto velocity = memory.read<float4>(Buffer::body_velocity, 2 * n);
-  std::vector<BodyState> states(n);
-  for (size_t i = 0; i < n; ++i) states[order[i]] = state_of(&position[2 * i], orientation[i], &velocity[2 * i]);
-  return states;
-}
-
-std::vector<PreciseBodyState> download_precise_bodies(Memory &memory, const std::vector<uint32_t> &order)
-{
-  const size_t n = order.size();
-  const auto position = memory.read_reals(Buffer::body_position, 8 * n),
-             orientation = memory.read_reals(Buffer::body_orientation, 4 * n);
-  const auto velocity = memory.read_reals(Buffer::body_velocity, 8 * n);
-  std::vector<PreciseBodyState> states(n);
-  for (size_t i = 0; i < n; ++i) {
-    PreciseBodyState &state = states[order[i]];
-    for (size_t k = 0; k < 3; ++k) state.position[k] = position[8 * i + k] + position[8 * i + 4 + k];
-    std::copy_n(&orientation[4 * i], 4, state.orientation.begin());
-    std::copy_n(&velocity[8 * i], 3, state.linear_velocity.begin());
-    std::copy_n(&velocity[8 * i + 4], 3, state.angular_velocity.begin());
-  }
-  return states;
-}
-
-bool is_finite(const BodyState &state)
-{
-  const auto finite = [](const auto &values) {
-    return std::all_of(values.begin(), values.end(), [](auto x) { return std::isfinite(round_to_float(double{x})); });
-  };
-  return finite(state.position) && finite(state.orientation) && finite(state.linear_velocity) &&
-         finite(state.angular_velocity);
-}
-
-void quarantine_body(Memory &memory, uint32_t index)
-{
-  BodyRecord record = read_body(memory, index);
-  for (const double x : point_of(record.position.data()))
-    if (!std::isfinite(x)) record.position = {};
-  record.orientation = {0, 0, 0, 1};
-  record.velocity = {};
-  record.flags = as_absent(record.flags);
-  write_body(memory, index, record);
-}
-
-std::vector<uint32_t> bodies_not_finite(Memory &memory, uint32_t bodies)
-{
-  std::vector<bool> bad(bodies);
-  for (const auto &[buffer, rows] :
-       {std::pair(Buffer::body_position, 2u), std::pair(Buffer::body_orientation, 1u),
-        std::pair(Buffer::body_velocity, 2u), std::pair(Buffer::solver_velocity, 2u),
-        std::pair(Buffer::solver_delta_pose, 2u), std::pair(Buffer::solver_orientation, 1u)}) {
-    const std::vector<float4> values = memory.read<float4>(buffer, size_t{bodies} * rows);
-    for (size_t i = 0; i < values.size(); ++i)
-      if (!is_finite_vector(std::array{values[i].x, values[i].y, values[i].z, values[i].w})) bad[i / rows] = true;
-  }
-  std::vector<uint32_t> indices;
-  for (uint32_t body = 0; body < bodies; ++body)
-    if (bad[body]) indices.push_back(body);
-  return indices;
-}
-
-void measure_contacts(Memory &memory, Statistics &statistics)
-{
-  const auto counts = memory.read<uint32_t>(Buffer::counts, COUNT_TOTAL);
-  const uint32_t pairs = counts[COUNT_PAIRS], stride = counts[CAPACITY_PAIRS];
-  statistics.pairs = pairs;
-  statistics.manifolds = counts[COUNT_CONSTRAINTS];
-  statistics.colors = counts[COUNT_COLORS];
-  statistics.direct_islands = counts[COUNT_DIRECT_ISLANDS];
-  statistics.direct_left = counts[COUNT_DIRECT_LEFT];
-  statistics.direct_stalled = counts[COUNT_DIRECT_STALLED];
-  const auto points = memory.read<uint32_t>(Buffer::manifold_count, pairs),
-             colors = memory.read<uint32_t>(Buffer::pair_color, pairs);
-  double sum = 0;
-  for (uint32_t plane = 0; plane < counts[CAPACITY_POINTS]; ++plane) {
-    const auto rows = memory.read<float4>(Buffer::manifold_points, pairs, size_t{plane} * stride);
-    for (uint32_t i = 0; i < pairs; ++i) {
-      if (points[i] <= plane || colors[i] == COLOR_INACTIVE) continue; /* triggers are not counted */
-      const double depth = std::max(0.0, -static_cast<double>(rows[i].w));
-      ++statistics.contacts;
-      sum += depth;
-      statistics.max_penetration = std::max(statistics.max_penetration, depth);
-    }
-  }
-  if (statistics.contacts > 0) statistics.mean_penetration = sum / statistics.contacts;
-}
-
-double kinetic_energy(Memory &memory, const Scene &scene, const std::vector<uint32_t> &order)
-{
-  const std::vector<BodyState> states = download_bodies(memory, order);
-  double energy = 0;
-  for (size_t i = 0; i < states.size(); ++i) {
-    const Body &body = scene.bodies[i];
-    if (body.type != BodyType::dynamic) continue;
-    const BodyState &s = states[i];
-    const Vec3 inverse = inverse_inertia_of(scene, body);
-    const double x = s.orientation[0], y = s.orientation[1], z = s.orientation[2], w = s.orientation[3];
-    const double axes[3][3] = {{1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)},
-                               {2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)},
-                               {2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)}};
-    for (int k = 0; k < 3; ++k) {
-      const double v = s.linear_velocity[k];
-      const double spin =
-          axes[k][0] * s.angular_velocity[0] + axes[k][1] * s.angular_velocity[1] + axes[k][2] * s.angular_velocity[2];
-      energy += 0.5 * body.mass * v * v + (inverse[k] > 0 ? 0.5 * spin * spin / inverse[k] : 0.0);
-    }
-  }
-  return energy;
-}
-
-uint64_t hash_buffers(Memory &memory, const std::vector<Buffer> &buffers, size_t items, uint64_t seed)
-{
-  for (Buffer buffer : buffers) {
-    const BufferRow &info = row_of(buffer);
-    const auto bytes = memory.read<char>(buffer, items * info.per_item * size_of(info.element));
-    seed = hash_bytes(bytes.data(), bytes.size(), seed);
-  }
-  return seed;
 }
 
 } // namespace tandem

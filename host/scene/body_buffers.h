@@ -1,13 +1,12 @@
-/* body_buffers.h - converts between the scene's bodies and the records that kernels read, and measures statistics on
- * these records. */
+/* body_buffers.h - converts the scene's bodies to the rows that kernels read. */
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
 #include <tandem/world.h>
 
-#include "host/runtime/memory.h"
 #include "host/scene/body_status.h"
 #include "host/scene/hull_buffers.h"
 #include "host/scene/staged_uploads.h"
@@ -17,6 +16,9 @@ namespace tandem {
 
 /* The two float4s of a double_float3: shared/records.h. */
 std::array<float4, 2> double_float3_of(const Point &p);
+float4 float4_of_vec(const Vec3 &v, float w);
+/* The flags of a body that takes part in nothing. */
+uint32_t as_absent(uint32_t flags);
 float inverse_mass_of(const Body &body); /* 0 unless it is dynamic */
 /* The quaternion at length 1; unchanged if it has that length already. */
 Quat unit(const Quat &q);
@@ -48,37 +50,5 @@ void stage_starts(StagedUploads &uploads, const Scene &scene, std::span<const ui
 /* Makes slots free: points at rest that take part in nothing, where the bodies were. */
 void stage_free_rows(StagedUploads &uploads, uint32_t first, uint32_t bodies);
 void stage_materials(StagedUploads &uploads, const Scene &scene);
-void upload_body(Memory &memory, uint32_t index, const BodyState &state);
-BodyState download_body(Memory &memory, uint32_t index);
-std::vector<BodyState> download_bodies(Memory &memory, const std::vector<uint32_t> &order);
-std::vector<PreciseBodyState> download_precise_bodies(Memory &memory, const std::vector<uint32_t> &order);
-
-bool is_finite(const BodyState &state);
-
-/* The part of a body that the host may change, as it is in the buffers. */
-struct BodyRecord {
-  std::array<float4, 2> position;
-  float4 orientation;
-  std::array<float4, 2> velocity;
-  uint32_t flags;
-};
-BodyRecord read_body(Memory &memory, uint32_t index);
-/* The change is complete or, if memory or a device fails, not made at all. */
-void write_body(Memory &memory, uint32_t index, const BodyRecord &record);
-
-/* Takes the body at `index` out of the simulation: it becomes fixed, at rest and without pairs, at its last finite
- * pose. */
-void quarantine_body(Memory &memory, uint32_t index);
-
-/* Indices of the bodies whose velocity or displacement of the last launches, or whose state before it, is not
- * finite. */
-std::vector<uint32_t> bodies_not_finite(Memory &memory, uint32_t bodies);
-
-/* Computes the contact figures of the last step. */
-void measure_contacts(Memory &memory, Statistics &statistics);
-double kinetic_energy(Memory &memory, const Scene &scene, const std::vector<uint32_t> &order);
-
-/* A hash of the first `items` items of each buffer. */
-uint64_t hash_buffers(Memory &memory, const std::vector<Buffer> &buffers, size_t items, uint64_t seed = 0);
 
 } // namespace tandem

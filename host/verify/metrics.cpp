@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 
+#include <tandem/error.h>
 #include <tandem/metrics.h>
 
 #include "host/runtime/interface/kernel_list.h"
@@ -41,6 +42,16 @@ struct SolverBody {
   double inverse_mass;
 };
 
+/* What World keeps after a step only if it is told to. */
+constexpr Buffer kept_for_residuals[] = {Buffer::constraint_center, Buffer::constraint_offset};
+
+void check_kept(const Memory &memory)
+{
+  for (const Buffer buffer : kept_for_residuals)
+    if (!memory.is_held(buffer))
+      throw InputError("step_residuals: the contacts of the last step were not kept; call keep_residuals before it");
+}
+
 /* The contact problem of the last step, read from the buffers of the solver. */
 class StepContacts {
 public:
@@ -50,6 +61,8 @@ public:
     const auto counts = memory.read<uint32_t>(Buffer::counts, COUNT_TOTAL);
     if (memory.bytes(Buffer::constraint_normal_impulse) == 0) return; /* the solver has no impulses */
     count = counts[COUNT_CONSTRAINTS];
+    if (count == 0) return;
+    check_kept(memory);
     stride_ = counts[CAPACITY_PAIRS];
     a_ = memory.read<uint32_t>(Buffer::constraint_a, count);
     b_ = memory.read<uint32_t>(Buffer::constraint_b, count);
@@ -308,6 +321,11 @@ double natural_map_of(double impulse, double mass_speed) { return impulse - std:
 double fischer_burmeister_of(double impulse, double mass_speed)
 {
   return impulse + mass_speed - std::hypot(impulse, mass_speed);
+}
+
+void keep_residuals(World &world)
+{
+  for (const Buffer buffer : kept_for_residuals) world.keep_after_steps(buffer);
 }
 
 StepResiduals step_residuals(World &world)

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-#include "host/scene/body_buffers.h"
+#include "host/scene/buffer_measures.h"
 
 namespace tandem {
 

@@ -78,6 +78,8 @@ World::Implementation::Implementation(Beginning beginning, const Placement &plac
   place(backends.wanted());
   if (automatic) automatic->look_for_device(backends, buffers.needs().kernels);
   buffers.set_sharing(settings.extensions.empty());
+  /* Both ask whose pairs they were: of islands that fall asleep, and of batches at fault. */
+  if (settings.sleeping || settings.check) buffers.keep_after_steps(Buffer::pair_a);
   buffers.allocate(sizes());
   upload_scene();
   guess_counts();

@@ -24,6 +24,8 @@
 #include "host/runtime/memory.h"
 #include "host/runtime/recorder.h"
 #include "host/scene/body_buffers.h"
+#include "host/scene/body_records.h"
+#include "host/scene/buffer_measures.h"
 #include "host/scene/hull_buffers.h"
 #include "host/scene/joint_graph.h"
 #include "host/scene/specialise.h"
@@ -115,6 +117,7 @@ struct World::Implementation {
   struct Attempt {
     StepPlan plan;
     Statistics statistics;
+    std::optional<uint64_t> first_outgrown;
     size_t quarantined;
   };
   void step(const StepLimits &limits);

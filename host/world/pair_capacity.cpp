@@ -28,9 +28,14 @@ uint64_t more_by_share(uint64_t needed, uint64_t share) { return needed + needed
 
 } // namespace
 
+/* A pair has a body that can be pushed, or a trigger. Two pairs of 16 bytes take no more than a body of 32, so rows of
+ * pairs fit into the memory of rows of bodies (shared_memory.h). */
 uint32_t first_capacity(const Scene &scene, const Settings &settings)
 {
-  return static_cast<uint32_t>(std::min<uint64_t>(2 * uint64_t{scene.bodies.size()} + least_pairs, settings.max_pairs));
+  const auto pushed = std::count_if(scene.bodies.begin(), scene.bodies.end(),
+                                    [](const Body &body) { return body.type == BodyType::dynamic; });
+  const uint64_t wanted = std::max<uint64_t>(2 * static_cast<uint64_t>(pushed), least_pairs);
+  return static_cast<uint32_t>(std::min<uint64_t>(wanted, settings.max_pairs));
 }
 
 uint64_t room_for(uint64_t needed) { return more_by_share(needed, spare_share); }

@@ -113,6 +113,7 @@ std::unique_ptr<World::Implementation> World::Implementation::made_of(SnapshotCo
   world->cached_pairs = contents.pairs;
   if (old && old->ring.size() > 0)
     world->keep_states(static_cast<uint32_t>(old->ring.size()), old->ring.keeps_after_steps());
+  if (old) world->buffers.keep_after_steps_as(old->buffers);
   if (old) world->set_observer(old->launcher.observer());
   return world;
 }

@@ -10,9 +10,9 @@
 namespace tandem {
 namespace {
 
-/* What the host reads of a step after its end: statistics, events, quarantine, sleepers. These keep their contents. */
+/* What the host reads after any step: statistics, events, quarantine, sleepers. These keep their contents. Others are
+ * kept only for who asks for them (World::keep_after_steps). */
 constexpr Buffer read_after_steps[] = {
-    Buffer::pair_a,
     Buffer::pair_b,
     Buffer::pair_color,
     Buffer::manifold_count,
@@ -22,8 +22,6 @@ constexpr Buffer read_after_steps[] = {
     Buffer::constraint_b,
     Buffer::constraint_normal,
     Buffer::constraint_points,
-    Buffer::constraint_center,
-    Buffer::constraint_offset,
     Buffer::constraint_normal_impulse,
     Buffer::constraint_friction_impulse,
     Buffer::constraint_restitution,

@@ -33,7 +33,7 @@ void World::Implementation::step(const StepLimits &limits)
   launcher.set_step(statistics.steps);
   if (automatic) place_as_chosen();
   ++state;
-  const Attempt before{plan, statistics, quarantined.size()};
+  const Attempt before{plan, statistics, first_outgrown, quarantined.size()};
   try {
     if (backends.is_waiting()) place_again();
     if (automatic) automatic->begin_step(backends, static_cast<bool>(launcher.observer()));
@@ -174,6 +174,7 @@ void World::Implementation::undo(const Attempt &before) noexcept
   turn_back();
   launches_ended = whole = false;
   statistics = before.statistics;
+  first_outgrown = before.first_outgrown;
   for (size_t i = before.quarantined; i < quarantined.size(); ++i) {
     slots.release(quarantined[i].body);
     if (scene.bodies[quarantined[i].body].type == BodyType::dynamic) ++awake_dynamics;

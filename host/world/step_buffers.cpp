@@ -38,6 +38,26 @@ size_t StepBuffers::wanted_bytes(Buffer buffer, const Sizes &sizes) const
   return needs_.touched[index_of(buffer)] || is_queried(buffer) ? bytes_of(buffer, sizes) : 0;
 }
 
+void StepBuffers::keep_after_steps(Buffer buffer)
+{
+  if (kept_[index_of(buffer)]) return;
+  kept_[index_of(buffer)] = true;
+  changed();
+}
+
+void StepBuffers::keep_after_steps_as(const StepBuffers &other)
+{
+  kept_ = other.kept_;
+  changed();
+}
+
+std::vector<bool> StepBuffers::apart() const
+{
+  std::vector<bool> apart = queried_;
+  for (size_t i = 0; i < kept_.size(); ++i) apart[i] = apart[i] || kept_[i];
+  return apart;
+}
+
 /* Of the buffers that grow or shrink, only the present sides of carried buffers must keep their contents, also those
  * that no kernel takes now. They come last, when the others have released their memory. */
 void StepBuffers::allocate(const Sizes &sizes)
@@ -55,7 +75,7 @@ void StepBuffers::allocate(const Sizes &sizes)
   for (const CarriedBuffer &buffer : carried_) memory_.resize(buffer.previous, wanted_bytes(buffer.previous, sizes));
   for (const CarriedBuffer &buffer : carried_)
     if (const size_t bytes = wanted_bytes(buffer.now, sizes)) memory_.fit(buffer.now, bytes);
-  if (shares_) memory_.share(tenancies_of(needs_.spans, memory_, queried_));
+  if (shares_) memory_.share(tenancies_of(needs_.spans, memory_, apart()));
 }
 
 void StepBuffers::make_ready(const Sizes &sizes)

@@ -46,6 +46,9 @@ public:
   {
     if (std::exchange(shares_, on) != on) changed();
   }
+  /* The buffer shares its memory with none. */
+  void keep_after_steps(Buffer buffer);
+  void keep_after_steps_as(const StepBuffers &other);
   /* What a step has left in scratch need not follow the kernels that write it anew. */
   void forget_scratch();
   /* Allocates a buffer for queries between steps, which the step itself may not have. */
@@ -55,6 +58,7 @@ public:
   const std::vector<CarriedBuffer> &carried() const { return carried_; }
 
 private:
+  std::vector<bool> apart() const;
   size_t wanted_bytes(Buffer buffer, const Sizes &sizes) const;
   void settle(Backend &backend);
   void reserve_both_sides(const CarriedBuffer &buffer, Storage &storage);
@@ -64,6 +68,7 @@ private:
   std::vector<CarriedBuffer> carried_ = carried_buffers();
   Needs needs_;
   std::vector<bool> queried_ = std::vector<bool>(all_buffers()); /* used by the structure that queries traverse */
+  std::vector<bool> kept_ = std::vector<bool>(all_buffers());    /* after steps, for whoever reads them */
   bool ready_ = false, shares_ = true;
 };
 

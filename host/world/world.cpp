@@ -88,6 +88,12 @@ uint32_t World::scene_body(uint32_t buffer_index) const
   const std::lock_guard guard(implementation_->reading);
   return implementation_->special.order.at(buffer_index);
 }
+void World::keep_after_steps(Buffer buffer)
+{
+  row_of(buffer); /* InputError if there is no buffer of this number */
+  implementation_->buffers.keep_after_steps(buffer);
+}
+
 void World::set_observer(Observer observer) { implementation_->set_observer(std::move(observer)); }
 
 std::vector<std::byte> World::save()
@@ -184,7 +190,7 @@ void World::read_bytes(Buffer buffer, void *to, size_t bytes)
   answer_in_turn(*implementation_, "a buffer", [&] {
     if (!implementation_->memory.is_held(buffer))
       throw InputError(fmt::format("read: buffer '{}' has lost its contents to another buffer of the step, which "
-                                   "shares its memory; an observer (World::set_observer) keeps them apart",
+                                   "shares its memory; World::keep_after_steps, called before the step, keeps them",
                                    row_of(buffer).name));
     implementation_->memory.download(buffer, to, bytes);
   });

@@ -71,7 +71,7 @@ SHARED void store_bounds_of_step(GLOBAL const Parameters *parameters, GLOBAL con
   vec3 reach_below = add(add(turned_extents(below, radius, turn), spare), rounding);
   vec3 reach_above = add(add(turned_extents(above, radius, turn), spare), rounding);
 
-  real fall = choose(m.inverse_mass > R(0.0), load_float4(body_mass, i * 2u).w * step * step, (real)R(0.0));
+  real fall = choose(m.inverse_mass > R(0.0), load_float4(body_mass, i).w * step * step, (real)R(0.0));
   vec3 gravity = gravity_at(parameters, body_gravity, i);
   vec3 displacement = scale(m.linear, step), fallen = add_scaled(displacement, gravity, fall);
   vec3 low =

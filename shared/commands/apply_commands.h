@@ -88,8 +88,8 @@ SHARED void add_impulse(GLOBAL const float4 *body_mass, uint locks, GLOBAL const
                         GLOBAL float4 *body_velocity, uint body, vec3 impulse, vec3 angular_impulse)
 {
   spatial_velocity m = load_velocity(body_velocity, body);
-  symmetric3 inverse_inertia = rotate_diagonal(rotation_of(quat_from(load_float4(body_orientation, body))),
-                                               xyz(load_float4(body_mass, body * 2u)));
+  symmetric3 inverse_inertia =
+      rotate_diagonal(rotation_of(quat_from(load_float4(body_orientation, body))), xyz(load_float4(body_mass, body)));
   if (locks != 0u) {
     impulse = without_locked_axes(impulse, linear_locks(locks));
     inverse_inertia = held_about_axes(inverse_inertia, angular_locks(locks));
@@ -102,8 +102,7 @@ SHARED void add_impulse(GLOBAL const float4 *body_mass, uint locks, GLOBAL const
 SHARED vec3 moment_of_command(GLOBAL const float4 *command_value, uint command, GLOBAL const float4 *body_position,
                               uint body)
 {
-  vec3 arm =
-      difference_of_positions(command_position(command_value, command, 1u), load_position(body_position, body));
+  vec3 arm = difference_of_positions(command_position(command_value, command, 1u), load_position(body_position, body));
   return cross3(arm, command_row(command_value, command, 0u));
 }
 
@@ -142,8 +141,7 @@ SHARED void add_forces_item(read_commands commands, GLOBAL const float4 *body_po
                                                      : command_row(commands.value, k, 1u);
     vec3 force = add(xyz(load_float4(body_force, body * 2u)), command_row(commands.value, k, 0u));
     store_float4(body_force, body * 2u, extend(force, R(0.0)));
-    store_float4(body_force, body * 2u + 1u,
-                 extend(add(xyz(load_float4(body_force, body * 2u + 1u)), torque), R(0.0)));
+    store_float4(body_force, body * 2u + 1u, extend(add(xyz(load_float4(body_force, body * 2u + 1u)), torque), R(0.0)));
   }
 }
 

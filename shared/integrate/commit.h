@@ -92,7 +92,7 @@ SHARED void commit_bodies_item(GLOBAL const float4 *solver_velocity, GLOBAL cons
   store_float4(body_orientation, i, load_float4(solver_orientation, i));
   spatial_velocity m = load_velocity(solver_velocity, i);
   store_float4(body_velocity, i * 2u, extend(m.linear, m.inverse_mass));
-  store_float4(body_velocity, i * 2u + 1u, extend(m.angular, load_float4(body_mass, i * 2u).w));
+  store_float4(body_velocity, i * 2u + 1u, extend(m.angular, load_float4(body_mass, i).w));
 }
 
 SHARED void cache_standing_item(GLOBAL const uint *body_standing, GLOBAL uint *cached_standing, uint i)

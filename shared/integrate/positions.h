@@ -96,7 +96,7 @@ SHARED void integrate_positions_item(GLOBAL const Parameters *parameters, GLOBAL
 {
   spatial_velocity m = load_velocity(solver_velocity, i);
   real h = parameters->substep;
-  vec4 mass = load_float4(body_mass, i * 2u);
+  vec4 mass = load_float4(body_mass, i);
   vec3 gravity = gravity_at(parameters, body_gravity, i);
   mask falls = (load_uint(body_falls, i) != 0u) & (m.inverse_mass > R(0.0)) &
                is_left_alone(parameters, gravity, m, load_real(solver_free_power, i));

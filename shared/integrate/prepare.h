@@ -37,7 +37,7 @@ SHARED void prepare_bodies_item(GLOBAL const Parameters *parameters, GLOBAL cons
   vec4 orientation = load_float4(bodies.orientation, i);
   vec4 zero = make_vec4(R(0.0), R(0.0), R(0.0), R(0.0));
   note_nonfinite(state_is_finite(bodies, i), counts, i, NONFINITE_AT_START);
-  vec3 inverse_moments = xyz(load_float4(body_mass, i * 2u));
+  vec3 inverse_moments = xyz(load_float4(body_mass, i));
   m.inverse_inertia = inverse_moments.x;
   store_velocity(solver_velocity, i, m);
   store_float4(solver_delta_pose, i * 2u, zero);

@@ -27,21 +27,20 @@ SHARED warm_start_impulses take_warm_start(GLOBAL const Parameters *parameters, 
 
 /* solver_free_power tells integrate_positions whether constraints push the body. */
 SHARED void integrate_velocities_item(GLOBAL const Parameters *parameters, GLOBAL const float4 *body_mass,
-                                      GLOBAL const float4 *body_gravity, GLOBAL const uint *body_lock,
-                                      GLOBAL const float4 *solver_inertia, GLOBAL float4 *solver_velocity,
-                                      GLOBAL float4 *warm_start_impulse, GLOBAL memory_real *solver_free_power,
-                                      item_index i)
+                                      GLOBAL const memory_real *body_damping, GLOBAL const float4 *body_gravity,
+                                      GLOBAL const uint *body_lock, GLOBAL const float4 *solver_inertia,
+                                      GLOBAL float4 *solver_velocity, GLOBAL float4 *warm_start_impulse,
+                                      GLOBAL memory_real *solver_free_power, item_index i)
 {
   spatial_velocity m = load_velocity(solver_velocity, i);
   real h = parameters->substep;
   vec3 gravity = gravity_at(parameters, body_gravity, i);
   mask moves = m.inverse_mass > R(0.0);
-  real pull = choose(moves, load_float4(body_mass, i * 2u).w * h, (real)R(0.0));
+  real pull = choose(moves, load_float4(body_mass, i).w * h, (real)R(0.0));
   m.linear = add_scaled(m.linear, gravity, pull);
   if (HAS_FEATURE(parameters, DAMPING)) {
-    vec4 damping = load_float4(body_mass, i * 2u + 1u);
-    m.linear = scale(m.linear, R(1.0) / (R(1.0) + h * damping.x));
-    m.angular = scale(m.angular, R(1.0) / (R(1.0) + h * damping.y));
+    m.linear = scale(m.linear, R(1.0) / (R(1.0) + h * load_real(body_damping, i * 2u)));
+    m.angular = scale(m.angular, R(1.0) / (R(1.0) + h * load_real(body_damping, i * 2u + 1u)));
   }
   if (HAS_FEATURE(parameters, LOCKS)) /* forces may have pushed as well */
     m.linear = without_locked_axes(m.linear, linear_locks(load_uint(body_lock, i)));

@@ -161,8 +161,8 @@ SHARED body_pair load_body_pair(GLOBAL const Parameters *parameters, GLOBAL cons
 /* The acceleration of b relative to a along the normal under gravity. */
 SHARED real relative_pull(vec3 gravity, GLOBAL const float4 *body_mass, body_pair bodies, vec3 normal)
 {
-  real a = choose(bodies.velocity_a.inverse_mass > R(0.0), load_float4(body_mass, bodies.a * 2u).w, (real)R(0.0));
-  real b = choose(bodies.velocity_b.inverse_mass > R(0.0), load_float4(body_mass, bodies.b * 2u).w, (real)R(0.0));
+  real a = choose(bodies.velocity_a.inverse_mass > R(0.0), load_float4(body_mass, bodies.a).w, (real)R(0.0));
+  real b = choose(bodies.velocity_b.inverse_mass > R(0.0), load_float4(body_mass, bodies.b).w, (real)R(0.0));
   real pull = (b - a) * dot3(gravity, normal);
   mask locked = (bodies.locks_a + bodies.locks_b) > R(0.0);
   if (!MAY_OCCUR(LOCKS) || !any_of(locked)) return pull;

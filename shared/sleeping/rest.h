@@ -27,7 +27,7 @@ SHARED mask is_at_rest(GLOBAL const Parameters *parameters, spatial_velocity m, 
 SHARED mask falls_freely(GLOBAL const Parameters *parameters, GLOBAL const uint *body_falls,
                          GLOBAL const float4 *body_mass, vec3 velocity, uint body)
 {
-  real pull = load_float4(body_mass, body * 2u).w;
+  real pull = load_float4(body_mass, body).w;
   real gained = R(0.5) * parameters->step * length_of(scale(gravity_of(parameters), pull));
   return body_falls[body] != 0u && gained > R(0.0) && length_of(velocity) > gained;
 }

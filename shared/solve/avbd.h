@@ -119,7 +119,7 @@ SHARED void avbd_begin_item(GLOBAL const Parameters *parameters, GLOBAL const fl
   mask touched =
       (load_uint(body_constraint_start, i) != load_uint(body_constraint_start, i + 1u)) & (m.inverse_mass > R(0.0));
   vec3 gravity = gravity_of(parameters);
-  m.linear = add_scaled(m.linear, gravity, -(load_float4(body_mass, i * 2u).w * parameters->substep));
+  m.linear = add_scaled(m.linear, gravity, -(load_float4(body_mass, i).w * parameters->substep));
   store_velocity_if(touched, solver_velocity, i, m);
 }
 

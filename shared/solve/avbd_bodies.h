@@ -124,7 +124,7 @@ SHARED void avbd_body(GLOBAL const Parameters *parameters, read_blocks blocks, r
 {
   point_planes planes = planes_of(counts);
   spatial_velocity m = load_velocity(solver_velocity, body);
-  vec3 inverse_moments = xyz(load_float4(blocks.mass, body * 2u));
+  vec3 inverse_moments = xyz(load_float4(blocks.mass, body));
   block_frame frame = {
       rotation_of(quat_from(load_float4(blocks.orientation, body))),
       make_vec3(square_root(inverse_moments.x), square_root(inverse_moments.y), square_root(inverse_moments.z)),

@@ -108,6 +108,46 @@ TEST_CASE("shared memory changes no bit: sleep, settled contacts, and steps with
   require_same_bits(load_scene("spheres:n=27,height=20"), {}, 150);
 }
 
+namespace {
+
+template <class T> T any_of_choices(Random &random)
+{
+  const auto all = choices<T>();
+  return all[random.below(static_cast<uint32_t>(all.size()))];
+}
+
+Settings any_settings(Random &random)
+{
+  const auto tossed = [&] { return random.below(2) == 1; };
+  Settings settings = settings_for(any_of_choices<Solver>(random));
+  if (settings.solver == Solver::soft_step && tossed()) settings.substeps = automatic_substeps;
+  settings.broadphase = any_of_choices<Broadphase>(random);
+  settings.batching = any_of_choices<Batching>(random);
+  settings.narrowphase = any_of_choices<Narrowphase>(random);
+  settings.midphase = any_of_choices<Midphase>(random);
+  settings.bounds = any_of_choices<Bounds>(random);
+  settings.sleeping = tossed();
+  settings.check = tossed();
+  settings.events = tossed();
+  settings.pair_events = tossed();
+  settings.moved_bodies = tossed();
+  settings.specialise = tossed() || tossed();
+  return settings;
+}
+
+} // namespace
+
+TEST_CASE("shared memory changes no bit: any scene with any settings")
+{
+  Random random(17);
+  for (int round = 0; round < 300; ++round) {
+    CAPTURE(round);
+    const std::vector<std::string> &scenes = small_scenes();
+    const Scene scene = load_scene(scenes[random.below(static_cast<uint32_t>(scenes.size()))]);
+    require_same_bits(scene, any_settings(random), 1 + static_cast<int>(random.below(8)));
+  }
+}
+
 TEST_CASE("a buffer that lies in memory which another still needs is found by its bits")
 {
   const Scene scene = load_scene("box-stack:n=20");

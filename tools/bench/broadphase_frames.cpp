@@ -12,6 +12,7 @@
 #include "host/runtime/interface/floating_point.h"
 #include "host/runtime/recorder.h"
 #include "host/scene/body_buffers.h"
+#include "host/scene/buffer_measures.h"
 #include "host/scene/parameters.h"
 
 namespace tandem {

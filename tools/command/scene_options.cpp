@@ -104,14 +104,26 @@ void SceneOptions::add_events_flag(CLI::App &parser)
   parser.add_flag("--events", events_, "with contact events, as `run --events F.json` has them");
 }
 
+namespace {
+
+uint32_t substeps_of(const std::string &text)
+{
+  if (text == "auto") return automatic_substeps;
+  try {
+    return static_cast<uint32_t>(whole_number("--substeps", text, 1, 1000));
+  } catch (const InputError &error) {
+    throw InputError(fmt::format("{}, or auto", error.what()));
+  }
+}
+
+} // namespace
+
 Settings SceneOptions::settings() const
 {
   Settings settings = settings_for(parse_setting<Solver>(solver_));
   if (step_.starts_with("1/")) settings.step = static_cast<float>(1.0 / real_number("--dt", step_.substr(2)));
   else settings.step = static_cast<float>(real_number("--dt", step_));
-  if (substeps_ == "auto") settings.substeps = automatic_substeps;
-  else if (!substeps_.empty())
-    settings.substeps = static_cast<uint32_t>(whole_number("--substeps", substeps_, 1, 1000));
+  if (!substeps_.empty()) settings.substeps = substeps_of(substeps_);
   if (!iterations_.empty())
     settings.iterations = static_cast<uint32_t>(whole_number("--iterations", iterations_, 1, 1000));
   settings.broadphase = parse_setting<Broadphase>(broadphase_);

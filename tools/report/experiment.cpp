@@ -148,6 +148,7 @@ void simulate(Run &run, World &world, double duration, const AfterFrame &after_f
 void observe(Run &run, const Scene &scene, double duration, const Truth &truth)
 {
   World world(scene, run.settings, Placement{run.backend, {}, false});
+  keep_residuals(world);
   Observation observation(scene, truth);
   simulate(run, world, duration, [&](World &, size_t k) { observation.frame(world, k); });
   const Statistics statistics = world.statistics();

@@ -425,6 +425,9 @@ public:
   Features features() const;
   std::vector<Kernel> kernels() const;
   Memory &memory();
+  /* Buffers of a step share memory, so that most of them have lost their contents when it ends. From the next step on
+   * this one keeps them. */
+  void keep_after_steps(Buffer buffer);
   Backend &backend_of(Kernel kernel);
   double build_milliseconds() const;
   /* Launches that backends have made so far, without kernels of the host alone; joined ones count as one. */

@@ -195,9 +195,9 @@ TEST_CASE("compare: takes two backends", "[compare]")
 
 TEST_CASE("buffer place: records, planes, single numbers", "[compare]")
 {
-  const BufferLocation mass = location_in(Buffer::body_mass, scalar_of_record(3, 2, 1, 1), 100);
-  CHECK(mass.item == 3);
-  CHECK(mass.field == "angular_damping");
+  const BufferLocation velocity = location_in(Buffer::body_velocity, scalar_of_record(3, 2, 1, 1), 100);
+  CHECK(velocity.item == 3);
+  CHECK(velocity.field == "angular.y");
   const BufferLocation rolling = location_in(Buffer::constraint_rolling, (100 + 17) * 4, 100);
   CHECK(rolling.item == 17);
   CHECK(rolling.part == 1);

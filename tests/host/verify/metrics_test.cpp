@@ -24,6 +24,7 @@ std::unique_ptr<World> resting_ball()
   add_ground(scene);
   add_body(scene, BodyType::dynamic, sphere_shape(0.5f), {0, 0.5f, 0});
   auto world = std::make_unique<World>(scene, settings_with(1.0 / 60, 4), Placement{"reference", {}, false});
+  keep_residuals(*world);
   run(*world, 120);
   return world;
 }
@@ -145,6 +146,7 @@ TEST_CASE("metrics: a box that slides keeps its friction on the cone, against th
   add_body(scene, BodyType::dynamic, box_shape(0.5f, 0.2f, 0.5f), {0, 0.2f, 0}).linear_velocity = {3, 0, 1};
   for (const char *backend : {"reference", "serial", "tbb:threads=2,lanes=4"}) {
     World world(scene, settings_with(1.0 / 60, 4), {backend, {}, false});
+    keep_residuals(world);
     run(world, 10);
     CAPTURE(backend);
     const StepResiduals residuals = step_residuals(world);
@@ -152,6 +154,21 @@ TEST_CASE("metrics: a box that slides keeps its friction on the cone, against th
     CHECK(residuals.fischer_burmeister < 0.05);
     CHECK(residuals.cone_violation < 0.05);
   }
+}
+
+TEST_CASE("metrics: residuals of a step that has not kept its contacts are refused, and change no bit", "[metrics]")
+{
+  const Scene scene = load_scene("box-stack:n=20");
+  World plain(scene, {}, {"serial", {}}), kept(scene, {}, {"serial", {}});
+  keep_residuals(kept);
+  for (World *world : {&plain, &kept}) world->step();
+  CHECK_THROWS_AS(step_residuals(plain), InputError);
+  CHECK(step_residuals(kept).natural_map > 0);
+  CHECK(plain.state_hash() == kept.state_hash());
+  CHECK(plain.memory().total_bytes() < kept.memory().total_bytes());
+  keep_residuals(plain);
+  for (World *world : {&plain, &kept}) world->step();
+  CHECK(step_residuals(plain).natural_map == step_residuals(kept).natural_map);
 }
 
 TEST_CASE("metrics: nothing touches, nothing is left over", "[metrics]")

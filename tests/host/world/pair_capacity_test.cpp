@@ -80,6 +80,35 @@ TEST_CASE("the first step that outgrows its room makes hardly more than it needs
   CHECK(grown >= 2);
 }
 
+TEST_CASE("a step that fails after it outgrew its room does not count as the first that did")
+{
+  Settings settings;
+  settings.broadphase = Broadphase::grid;
+  World world(burst(balls), settings, {"serial", {}});
+  const auto room_of = [&] { return world.memory().read<uint32_t>(Buffer::counts, 1, CAPACITY_PAIRS).front(); };
+  CHECK_THROWS_AS(world.step({.rounds = 1}), LimitExceeded);
+  world.step();
+  const uint32_t room = room_of();
+  REQUIRE(room == all_pairs + all_pairs / 64);
+  world.create_bodies(burst(balls).bodies);
+  REQUIRE(room_of() == room);
+  world.step();
+  const uint32_t pairs = world.statistics().pairs;
+  REQUIRE(pairs > room);
+  CHECK(room_of() == pairs + pairs / 64);
+}
+
+TEST_CASE("bodies that cannot be pushed have no room for pairs of their own")
+{
+  Scene few = burst(600), many = few;
+  few.bodies.resize(1);
+  for (size_t i = 1; i < many.bodies.size(); ++i) many.bodies[i].type = BodyType::fixed;
+  World pushed(burst(600), {}, {"serial", {}}), alone(few, {}, {"serial", {}}), beside(many, {}, {"serial", {}});
+  const auto room = [](World &world) { return world.memory().bytes(Buffer::pair_b) / sizeof(uint32_t); };
+  CHECK(room(pushed) == 1200);
+  CHECK(room(beside) == room(alone));
+}
+
 TEST_CASE("room that is reserved between steps keeps the cache of contacts")
 {
   World plain(burst(balls)), other(burst(balls));

@@ -386,6 +386,7 @@ TEST_CASE("after any changes the tables are those of a world that is made with t
     require_same_rows<uint32_t>(world, fresh, Buffer::body_flags);
     require_same_rows<uint32_t>(world, fresh, Buffer::body_filter);
     require_same_rows<float>(world, fresh, Buffer::body_mass);
+    require_same_rows<float>(world, fresh, Buffer::body_damping);
     require_same_rows<float>(world, fresh, Buffer::body_shape);
     require_same_rows<float>(world, fresh, Buffer::body_shape_pose);
     require_same_rows<uint32_t>(world, fresh, Buffer::body_convex);

@@ -202,6 +202,7 @@ TEST_CASE("pair kinds: a scene has the kernel of every pair that it makes")
   size_t met = 0;
   for (const Scene &scene : scenes) {
     World world(scene, Settings{}, Placement{"serial", {}, false});
+    world.keep_after_steps(Buffer::pair_a);
     for (int step = 0; step < 12; ++step) world.step();
     Memory &memory = world.memory();
     const uint32_t count = memory.read<uint32_t>(Buffer::counts, 1, COUNT_PAIRS).at(0);

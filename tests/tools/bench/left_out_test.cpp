@@ -57,7 +57,7 @@ TEST_CASE("bench left-out: a scene has a row for each feature that it lacks, and
   CHECK(of_boxes + had == static_cast<std::ptrdiff_t>(all.size()));
 }
 
-TEST_CASE("bench left-out: rows of friction and of points beyond the first are bytes of pairs, damping is none")
+TEST_CASE("bench left-out: rows of friction and of points beyond the first are bytes of pairs, damping of bodies")
 {
   const std::vector<LeftOut> rows = bench_left_out(left_out_request({mesh_slide, few_balls}));
   const LeftOut *friction = left_out_row(rows, mesh_slide, "FRICTION"),
@@ -70,9 +70,10 @@ TEST_CASE("bench left-out: rows of friction and of points beyond the first are b
   for (uint64_t k = 0; k < scene_warm_steps + 2; ++k) world.step();
   const uint64_t pairs = world.memory().bytes(Buffer::constraint_normal_impulse) / 16;
   CHECK(friction->without.bytes == world.memory().total_bytes());
-  CHECK(friction->with.bytes - friction->without.bytes == 48 * pairs);
+  /* Of the three rows of 16 bytes, the one that the commit writes has the arms in its memory until then. */
+  CHECK(friction->with.bytes - friction->without.bytes == 32 * pairs);
   CHECK(points->with.bytes > points->without.bytes);
-  CHECK(damping->with.bytes == damping->without.bytes);
+  CHECK(damping->with.bytes - damping->without.bytes == 8 * load_scene(few_balls).bodies.size());
   CHECK(damping->with.launches.median == damping->without.launches.median);
 }
 

@@ -36,7 +36,7 @@ TEST_CASE("command: numbers out of range", "[command]")
   for (const char *step : {"-0.1", "0", "nan", "inf", "soon", "1/0", "1e9"})
     check_refused("run " + tiny + " --dt " + step, "");
   check_refused("run " + tiny + " --dt nan", "--dt");
-  check_refused("run " + tiny + " --substeps 0", "--substeps");
+  check_refused("run " + tiny + " --substeps 0", "--substeps '0': use a whole number from 1 to 1000, or auto");
   check_refused("run " + tiny + " --iterations 1001", "--iterations");
   check_refused("bench sort --n 0", "--n");
 }

@@ -219,7 +219,7 @@ TEST_CASE("out of memory names the buffer, its bytes, the bodies and the pairs",
   const Outcome outcome = attempt(0, false, [&] { world.step(); });
   INFO(outcome.message);
   for (const char *part : {"step 0: ", "out of memory: buffer ", " needs ", " bytes of the host's memory",
-                           "of 52 bodies", "room for 1128 pairs"})
+                           "of 52 bodies", "room for 1024 pairs"})
     CHECK(outcome.message.find(part) != std::string::npos);
 }
 
