@@ -1,11 +1,10 @@
 /* The colours of joints: no two joints of a colour push one body, the order is by colour and type, and what finds no
  * colour is an overflow joint. */
-#include "host/scene/joint_graph.h"
-
 #include <algorithm>
 #include <set>
 
 #include "host/base/random.h"
+#include "host/scene/joint_graph.h"
 #include "shared/counts.h"
 #include "tests/catch.h"
 

@@ -4,8 +4,8 @@
 
 #include <tandem/metrics.h>
 
-#include "tests/physics/joints.h"
 #include "tests/catch.h"
+#include "tests/physics/joints.h"
 
 using namespace tandem;
 using namespace tandem::physics_tests;
@@ -42,10 +42,10 @@ JointError error_of(JointType type, const Vector &way, const Vector &axis, doubl
 
 TEST_CASE("the errors of joints are what their types hold, of poses made by hand")
 {
-  const std::map<JointType, std::string> freedoms = {
-      {JointType::ball, "---xyz"},        {JointType::fixed, "------"}, {JointType::hinge, "---x--"},
-      {JointType::slider, "x-----"},      {JointType::cylindrical, "x--x--"}, {JointType::plane, "-yzx--"},
-      {JointType::parallel, "xyzx--"}};
+  const std::map<JointType, std::string> freedoms = {{JointType::ball, "---xyz"},        {JointType::fixed, "------"},
+                                                     {JointType::hinge, "---x--"},       {JointType::slider, "x-----"},
+                                                     {JointType::cylindrical, "x--x--"}, {JointType::plane, "-yzx--"},
+                                                     {JointType::parallel, "xyzx--"}};
   const bool to_world = GENERATE(false, true);
   const auto near = [](double x) { return Approx(x).margin(1e-6); }; /* frames are floats */
   for (const auto &[type, free] : freedoms)
