@@ -37,7 +37,7 @@ inline Scene joint_crowd(uint64_t seed = 1, uint32_t bodies = 110)
   add_body(scene, BodyType::kinematic, box_shape(0.5f, 0.5f, 0.5f), {0, 4, -2}).angular_velocity = {0, 1, 0};
   for (uint32_t i = 0; i < bodies; ++i) {
     const Shape shape = i % 3 ? box_shape(0.3f, 0.2f, 0.4f) : sphere_shape(0.3f);
-    const Point at{0.9 * (i % 5), 0.6 + 0.9 * (i / 25), 0.9 * (i / 5 % 5)};
+    const Point at{0.7 * (i % 5), 0.6 + 0.7 * (i / 25), 0.7 * (i / 5 % 5)};
     Body &body = add_body(scene, BodyType::dynamic, shape, at);
     body.orientation = any_turn(random);
     body.linear_velocity = vec3_of(direction(random));
