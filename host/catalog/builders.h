@@ -14,6 +14,8 @@ namespace tandem::scene_builders {
 inline constexpr auto integer = SceneParameter::Type::integer;
 inline constexpr auto real = SceneParameter::Type::real;
 
+inline constexpr double density_of_water = 1000; /* kg/m^3 */
+
 inline int64_t whole(const SceneValues &values, const char *name) { return int64_t(values.find(name)->second); }
 inline double number(const SceneValues &values, const char *name) { return values.find(name)->second; }
 

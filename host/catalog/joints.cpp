@@ -6,14 +6,13 @@
 #include <tandem/round_to_float.h>
 
 #include "host/catalog/builders.h"
+#include "host/catalog/ragdolls.h"
 
 namespace tandem {
 
 using namespace scene_builders;
 
 namespace {
-
-constexpr double density = 1000; /* kg/m^3 */
 
 /* A joint at a point of each body, in its axes. */
 Joint &connect(Scene &scene, JointType type, uint32_t a, const Point &at_a, uint32_t b, const Point &at_b)
@@ -42,7 +41,7 @@ Scene joint_grid(const SceneValues &v)
   const double radius = 0.4;
   Scene scene;
   scene.shapes = {sphere_shape(round_to_float(radius))};
-  const float mass = round_to_float(density * 4 / 3 * M_PI * radius * radius * radius);
+  const float mass = round_to_float(density_of_water * 4 / 3 * M_PI * radius * radius * radius);
   for (int64_t column = 0; column < columns; ++column)
     for (int64_t row = 0; row < rows; ++row) {
       const auto index = static_cast<uint32_t>(scene.bodies.size());
@@ -69,7 +68,7 @@ Scene hinge_chain(const SceneValues &v)
   const double half = 0.5 * number(v, "length");
   Scene scene;
   scene.shapes = {box_shape(round_to_float(half), round_to_float(0.2 * half), round_to_float(0.5 * half))};
-  const auto mass = round_to_float(density * 8 * half * 0.2 * half * 0.5 * half);
+  const auto mass = round_to_float(density_of_water * 8 * half * 0.2 * half * 0.5 * half);
   for (int64_t i = 0; i < whole(v, "n"); ++i) {
     const auto index = static_cast<uint32_t>(scene.bodies.size());
     add_body(scene, 0, {half * double(1 + 2 * i), 0, 0}, mass);
@@ -102,6 +101,77 @@ Scene pendulums(const SceneValues &v)
   return scene;
 }
 
+/* --- bridge: planks on hinges between two fixed banks, and balls that have been dropped on them -------------------
+ *
+ *      o   o   o
+ *  |==-==-==-==-==-==|
+ */
+
+uint64_t bridge_bodies(const SceneValues &v) { return 3 + uint64_t(whole(v, "planks") + whole(v, "balls")); }
+
+Scene bridge(const SceneValues &v)
+{
+  const int64_t planks = whole(v, "planks"), balls = whole(v, "balls");
+  const double half = 0.25, thick = 0.05, wide = 1, end = 2 * half * double(planks);
+  Scene scene;
+  add_ground(scene);
+  const uint32_t plank = add_shape(scene, box_shape(float(half), float(thick), float(wide))),
+                 ball = add_shape(scene, sphere_shape(0.3f));
+  const double height = number(v, "height");
+  for (const double x : {-half, end + half}) add_body(scene, plank, {x, height, 0}).type = BodyType::fixed;
+  for (int64_t i = 0; i < planks; ++i) {
+    const auto index = static_cast<uint32_t>(scene.bodies.size());
+    add_body(scene, plank, {half * double(1 + 2 * i), height, 0},
+             round_to_float(0.5 * density_of_water * 8 * half * thick * wide));
+    Joint &joint = connect(scene, JointType::hinge, i == 0 ? 1 : index - 1, {half, 0, 0}, index, {-half, 0, 0});
+    joint.orientation_a = joint.orientation_b = x_to_z;
+  }
+  const auto last = static_cast<uint32_t>(scene.bodies.size() - 1);
+  Joint &joint = connect(scene, JointType::hinge, last, {half, 0, 0}, 2, {-half, 0, 0});
+  joint.orientation_a = joint.orientation_b = x_to_z;
+  for (int64_t i = 0; i < balls; ++i)
+    add_body(scene, ball, {end * double(i + 1) / double(balls + 1), height + 2, 0}, round_to_float(number(v, "mass")));
+  return scene;
+}
+
+/* --- wrecking-ball: a heavy ball on a chain that swings into a wall ----------------------------------------------- */
+
+uint64_t wrecking_ball_bodies(const SceneValues &v)
+{
+  return 2 + uint64_t(whole(v, "links") + whole(v, "rows") * whole(v, "length"));
+}
+
+Scene wrecking_ball(const SceneValues &v)
+{
+  const int64_t links = whole(v, "links");
+  const double half = 0.25, radius = 0.8, height = 2 * half * double(links) + radius + 1;
+  Scene scene;
+  add_ground(scene);
+  const uint32_t link = add_shape(scene, capsule_shape(0.08f, float(half - 0.08))),
+                 ball = add_shape(scene, sphere_shape(float(radius))),
+                 brick = add_shape(scene, box_shape(0.5f, 0.25f, 0.25f));
+  uint32_t before = no_body;
+  Point hook{0, height, 0};
+  for (int64_t i = 0; i <= links; ++i) { /* let go from the horizontal */
+    const bool is_ball = i == links;
+    const double reach = is_ball ? radius : half, mass = is_ball ? number(v, "mass") : 5;
+    const auto index = static_cast<uint32_t>(scene.bodies.size());
+    Body &body =
+        add_body(scene, is_ball ? ball : link, {-2 * half * double(i) - reach, height, 0}, round_to_float(mass));
+    body.orientation = {0, 0, -0.70710678f, 0.70710678f};
+    connect(scene, JointType::ball, before, hook, index, {0, reach, 0});
+    before = index;
+    hook = {0, -half, 0};
+  }
+  for (int64_t row = 0; row < whole(v, "rows"); ++row)
+    for (int64_t k = 0; k < whole(v, "length"); ++k) {
+      const double shift = (row % 2 == 0 ? -0.15 : 0.15) - 0.5 * double(whole(v, "length") - 1);
+      Body &body = add_body(scene, brick, {0.75, 0.25 + 0.5 * double(row), 1.02 * (double(k) + shift)}, 20);
+      body.orientation = {0, 0.70710678f, 0, 0.70710678f};
+    }
+  return scene;
+}
+
 } // namespace
 
 std::vector<BuiltInScene> joint_scenes()
@@ -125,6 +195,23 @@ std::vector<BuiltInScene> joint_scenes()
         {"angle", real, 1.5, 0, 3.1, "of the last of them from the vertical, rad"}},
        number_of_links,
        pendulums},
+      {"bridge",
+       "planks on hinges between two banks, with balls on them",
+       {{"planks", integer, 20, 1, 100000, "planks of half a metre"},
+        {"balls", integer, 5, 0, 100000, "balls that fall on them"},
+        {"mass", real, 50, 0.001, 1e9, "of a ball, kg; a plank has 25"},
+        {"height", real, 5, 1, 10000, "of the banks above the ground, m"}},
+       bridge_bodies,
+       bridge},
+      {"wrecking-ball",
+       "a heavy ball on a chain that swings into a wall of bricks",
+       {{"links", integer, 12, 1, 10000, "links of half a metre"},
+        {"mass", real, 2000, 0.001, 1e9, "of the ball, kg; a link has 5"},
+        {"rows", integer, 8, 0, 1000, "rows of bricks"},
+        {"length", integer, 6, 1, 1000, "bricks in a row"}},
+       wrecking_ball_bodies,
+       wrecking_ball},
+      ragdoll_scene(),
   };
 }
 

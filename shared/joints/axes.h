@@ -1,7 +1,7 @@
 /* axes.h - limits, springs, motors and friction of the free coordinates of a joint.
  *
  *   lower            target          upper        m or rad
- *     |<-- limit ------/\/\/-- drive --->|        drive: force = stiffness (target - x) + damping (target velocity - v),
+ *     |<-- limit ------/\/\/-- drive --->|        drive: force = stiffness (target - x) + damping (target speed - v),
  *                                                 within its largest force; friction: at most so much, against v
  *
  * Springs are implicit in velocity and position, so they are stable at any stiffness: with h the substep, k stiffness

@@ -1,0 +1,245 @@
+/* What joints limit, drive and brake: closed forms of springs, motors and stops. Bodies have no gravity unless a test
+ * gives it. */
+#include <tandem/metrics.h>
+
+#include "tests/catch.h"
+#include "tests/physics/physics.h"
+
+using namespace tandem;
+using namespace tandem::physics_tests;
+
+namespace {
+
+constexpr double edge = 0.5; /* m, half of that of the cube of 1 kg that all joints hold to the world */
+constexpr double moment = 2.0 / 3.0 * edge * edge;
+
+/* A cube at the origin on a joint to the world, whose frames are those of world and cube. */
+struct Held {
+  Scene scene;
+  Joint joint;
+
+  explicit Held(JointType type, const Vec3 &gravity = {0, 0, 0}) : scene(empty_scene(gravity))
+  {
+    add_body(scene, BodyType::dynamic, box_shape(float(edge), float(edge), float(edge)), {0, 0, 0});
+    joint.type = type;
+    joint.body_b = 0;
+  }
+  Body &body() { return scene.bodies[0]; }
+  World world(double step = 1.0 / 60, uint32_t substeps = 4)
+  {
+    scene.joints = {joint};
+    return World(scene, settings_with(step, substeps), {});
+  }
+};
+
+double x_of(World &world) { return world.precise_bodies()[0].position[0]; }
+double speed_of(World &world) { return world.precise_bodies()[0].linear_velocity[0]; }
+double turn_speed_of(World &world) { return world.precise_bodies()[0].angular_velocity[0]; }
+
+/* Of a body that turns about x alone, -pi .. pi. */
+double angle_of(World &world)
+{
+  const auto q = world.precise_bodies()[0].orientation;
+  return 2 * std::atan2(q[0], q[3]) - (q[3] < 0 ? 2 * pi * (q[0] < 0 ? -1 : 1) : 0);
+}
+
+/* The angle between the axes x of the body and of the world. */
+double lean_of(World &world)
+{
+  const auto q = world.precise_bodies()[0].orientation;
+  return 2 * std::atan2(std::hypot(q[1], q[2]), std::hypot(q[0], q[3]));
+}
+
+} // namespace
+
+TEST_CASE("joint axes: a spring with a damper answers a step as theory says, at every step", "[physics]")
+{
+  const double step = GENERATE(1.0 / 60, 1.0 / 1000), stiffness = 40, damping = 4, target = 1;
+  Held held(JointType::slider);
+  held.joint.directions[0] = {
+      .target_position = float(target), .stiffness = float(stiffness), .damping = float(damping)};
+  World world = held.world(step);
+  const double decay = damping / 2, rate = std::sqrt(stiffness - decay * decay), h = step / 4;
+  double worst = 0;
+  for (int k = 1; k * step <= 3; ++k) {
+    world.step();
+    const double t = k * step;
+    const double exact =
+        target - target * std::exp(-decay * t) * (std::cos(rate * t) + decay / rate * std::sin(rate * t));
+    worst = std::max(worst, std::abs(x_of(world) - exact));
+  }
+  /* implicit Euler shifts the decay by about rate^2 h / 2, and the swing lasts for about 1 / decay */
+  CHECK(worst < 0.5 * stiffness * h / decay * target);
+  CHECK(worst > 1e-3 * stiffness * h / decay * target); /* it is of first order, no better */
+}
+
+TEST_CASE("joint axes: no spring is too stiff", "[physics]")
+{
+  const float stiffness = GENERATE(1e3f, 1e6f, 1e9f, 1e12f);
+  Held held(JointType::hinge, {0, -10, 0});
+  held.joint.position_b = {0, 1, 0}; /* the axis x is 1 m above the centre */
+  held.joint.position_a = {0, 1, 0};
+  held.joint.rotations[0] = {.target_position = 0.5f, .stiffness = stiffness, .damping = 0.05f * stiffness};
+  World world = held.world();
+  run(world, 600);
+  /* the weight turns it back by its moment at that angle over the stiffness */
+  CHECK(std::abs(angle_of(world) - 0.5) < 10 * std::sin(0.5) / double(stiffness) + 1e-3);
+  CHECK(std::abs(turn_speed_of(world)) < 1e-3);
+}
+
+TEST_CASE("joint axes: a motor speeds up with its largest force and then holds its speed", "[physics]")
+{
+  const double largest = 0.5, target = 6;
+  Held held(JointType::hinge);
+  held.joint.rotations[0] = {.target_velocity = float(target), .motor = true, .max_force = float(largest)};
+  World world = held.world();
+  const double growth = largest / moment; /* rad/s^2 */
+  for (int k = 1; k <= 180; ++k) {
+    world.step();
+    CHECK(std::abs(turn_speed_of(world) - std::min(target, growth * k / 60)) < 1e-4 * target);
+  }
+}
+
+TEST_CASE("joint axes: a motor on a slider lifts a weight, or not, as its force says", "[physics]")
+{
+  const auto [force, lifts] = GENERATE(std::pair(9.5f, false), std::pair(10.5f, true));
+  Held held(JointType::slider, {-10, 0, 0});
+  held.joint.directions[0] = {.lower = 0, .target_velocity = 0.5f, .motor = true, .max_force = force};
+  World world = held.world();
+  run(world, 240);
+  if (lifts) CHECK(std::abs(speed_of(world) - 0.5) < 1e-3);
+  else CHECK(std::abs(x_of(world)) < 0.01);
+}
+
+TEST_CASE("joint axes: friction brakes with its force and then holds", "[physics]")
+{
+  const double friction = 2, start = 3;
+  Held held(JointType::slider);
+  held.body().linear_velocity = {float(start), 0, 0};
+  held.joint.directions[0] = {.friction = float(friction)};
+  World world = held.world();
+  run(world, 120);
+  /* it comes to rest after v^2 / (2 a); Euler's method goes less far by half of a substep of the first speed */
+  CHECK(std::abs(x_of(world) - start * start / (2 * friction)) < 0.51 * start / 240);
+  CHECK(speed_of(world) == 0);
+}
+
+TEST_CASE("joint axes: no faster than its largest speed", "[physics]")
+{
+  Held held(JointType::slider, {10, 0, 0});
+  held.joint.directions[0] = {.max_speed = 2};
+  World world = held.world();
+  run(world, 120);
+  CHECK(std::abs(speed_of(world) - 2) < 1e-4);
+  const double before = x_of(world);
+  run(world, 60);
+  CHECK(std::abs(x_of(world) - before - 2) < 0.01 * 2); /* gravity adds what a substep gains before it is braked */
+}
+
+TEST_CASE("joint axes: limits stop a body from both sides, at any speed", "[physics]")
+{
+  const double speed = GENERATE(0.5, 20.0, 300.0), sign = GENERATE(-1.0, 1.0);
+  Held held(JointType::slider);
+  held.body().linear_velocity = {float(sign * speed), 0, 0};
+  held.joint.directions[0] = {.lower = -0.7f, .upper = 0.7f};
+  World world = held.world();
+  double farthest = 0;
+  for (int k = 0; k < 240; ++k) {
+    world.step();
+    farthest = std::max(farthest, std::abs(x_of(world)));
+  }
+  CHECK(farthest < 0.7 + 1e-3);
+  CHECK(std::abs(sign * x_of(world) - 0.7) < 1e-3); /* it stays where it was stopped */
+}
+
+TEST_CASE("joint axes: a hinge stops at its limits under its weight, near half a turn as well", "[physics]")
+{
+  const double limit = GENERATE(0.2, 1.5, 3.0);
+  Held held(JointType::hinge, {0, -10, 0});
+  held.joint.position_a = held.joint.position_b = {0, -1, 0}; /* the axis is below, so it falls over */
+  held.body().angular_velocity = {0.5f, 0, 0};
+  held.body().linear_velocity = {0, 0, 0.5f};
+  held.joint.rotations[0] = {.lower = float(-limit), .upper = float(limit)};
+  World world = held.world();
+  run(world, 900);
+  CHECK(std::abs(angle_of(world) - limit) < 0.01);
+  CHECK(std::abs(turn_speed_of(world)) < 0.01);
+}
+
+TEST_CASE("joint axes: a soft limit gives way as its stiffness says", "[physics]")
+{
+  Held held(JointType::slider, {10, 0, 0});
+  held.joint.directions[0] = {.upper = 0, .limit_stiffness = 500, .limit_damping = 50};
+  World world = held.world();
+  run(world, 600);
+  CHECK(std::abs(x_of(world) - 10.0 / 500) < 1e-4);
+}
+
+TEST_CASE("joint axes: a range of nothing holds the axis", "[physics]")
+{
+  Held held(JointType::slider, {10, 0, 0});
+  held.joint.directions[0] = {.lower = 0, .upper = 0};
+  World world = held.world();
+  run(world, 300);
+  CHECK(std::abs(x_of(world)) < 1e-3);
+  CHECK(std::abs(speed_of(world)) < 1e-4);
+}
+
+TEST_CASE("joint axes: a rope lets go and holds, a rod does both, and both swing as pendulums", "[physics]")
+{
+  const bool rod = GENERATE(false, true);
+  Held held(JointType::distance, {0, -10, 0});
+  held.body().position = {0, -0.5, 0};
+  held.joint.directions[0] = {.lower = rod ? 0.5f : -JointAxis::unlimited, .upper = 1};
+  if (rod) held.joint.directions[0].upper = 0.5f;
+  World world = held.world();
+  run(world, 300);
+  const double length = -world.precise_bodies()[0].position[1];
+  CHECK(std::abs(length - (rod ? 0.5 : 1.0)) < 2e-3);
+}
+
+TEST_CASE("joint axes: a cone stops every swing at its angle, and the twist at its own", "[physics]")
+{
+  const double cone = 0.6, direction = GENERATE(0.0, 0.7, 1.6, 3.9);
+  Held held(JointType::cone_twist);
+  held.body().angular_velocity = {1.0f, float(2 * std::cos(direction)), float(2 * std::sin(direction))};
+  held.joint.rotations[0] = {.lower = -0.3f, .upper = 0.3f};
+  held.joint.rotations[1] = {.upper = float(cone)};
+  World world = held.world();
+  double widest = 0;
+  for (int k = 0; k < 240; ++k) {
+    world.step();
+    widest = std::max(widest, lean_of(world));
+  }
+  CHECK(widest > cone - 0.02);
+  CHECK(widest < cone + 0.02);
+}
+
+TEST_CASE("joint axes: a universal joint turns about its two axes and holds the third", "[physics]")
+{
+  Held held(JointType::universal);
+  held.body().angular_velocity = {1, 2, 0};
+  held.joint.rotations = {};
+  World world = held.world();
+  double crossed = 0, twist_speed = 0;
+  for (int k = 0; k < 240; ++k) {
+    world.step();
+    const Matrix axes = axes_of(world.bodies()[0].orientation);
+    crossed = std::max(crossed, std::abs(axes.col(1).x())); /* y of the body and x of the world */
+    twist_speed = std::max(twist_speed, std::abs(turn_speed_of(world)));
+  }
+  CHECK(crossed < 1e-3);
+  CHECK(twist_speed > 0.5);
+}
+
+TEST_CASE("joint axes: a joint of six degrees of freedom that holds all but one is a slider or a hinge", "[physics]")
+{
+  Held six(JointType::six_dof, {10, -10, 3}), slider(JointType::slider, {10, -10, 3});
+  six.joint.held_directions = {false, true, true};
+  six.joint.held_rotations = {true, true, true};
+  six.joint.directions[0] = slider.joint.directions[0] = {.upper = 2, .stiffness = 3, .damping = 0.1f};
+  World one = six.world(), other = slider.world();
+  run(one, 120);
+  run(other, 120);
+  CHECK(one.body_hash() == other.body_hash());
+}
