@@ -6,7 +6,7 @@
 
 namespace tandem::parity {
 
-/* A bridge of planks on hinges between two posts, and boxes that fall onto it. */
+/* A bridge of planks, which overlap a little, on hinges between two posts, and boxes that fall onto it. */
 inline Scene bridge(int planks = 8, int boxes = 6)
 {
   using namespace physics_tests;
@@ -15,7 +15,7 @@ inline Scene bridge(int planks = 8, int boxes = 6)
   add_ground(scene);
   for (const double x : {-0.5, planks + 0.5}) add_body(scene, BodyType::fixed, box_shape(0.4f, 1, 1), {x, 2, 0});
   for (int i = 0; i < planks; ++i) {
-    add_body(scene, BodyType::dynamic, box_shape(0.45f, 0.1f, 1), {i + 0.5, 3, 0}).mass = 5;
+    add_body(scene, BodyType::dynamic, box_shape(0.52f, 0.1f, 1), {i + 0.5, 3, 0}).mass = 5;
     const auto plank = uint32_t(scene.bodies.size() - 1);
     connect(scene, JointType::hinge, i == 0 ? 1 : plank - 1, plank, {double(i), 3, 0}, Vector::UnitZ());
   }
