@@ -1,4 +1,5 @@
-/* joints_test.cpp - scenes with joints by the real program: what it reports, that devices agree, and what it refuses. */
+/* joints_test.cpp - scenes with joints by the real program: what it reports, that devices agree, and what it
+ * refuses. */
 #ifdef TANDEM_COMMAND
 #include "tests/tools/command/command_line.h"
 
