@@ -42,7 +42,7 @@ TEST_CASE("command: what has no joints refuses them by one line", "[command]")
 
 TEST_CASE("command: a run reports its joints, and devices agree on them", "[command]")
 {
-  const Json result = json_of("run joint-grid:columns=5,rows=4 --steps 20 --on serial");
+  const command_line::Json result = json_of("run joint-grid:columns=5,rows=4 --steps 20 --on serial");
   CHECK(result["joints"] == 5 * 3 + 4 * 3);
   CHECK(result["joint_error"]["max"] > 0);
   CHECK(result["joint_error"]["max"] < 0.01);
