@@ -123,10 +123,11 @@ private:
   }
 };
 
-void stage_colors(StagedUploads &uploads, const JointGraph &graph, std::span<const uint32_t> index_of_body)
+/* The graph knows the bodies that the world began with; those that came later have no joints. */
+void stage_colors(StagedUploads &uploads, const JointGraph &graph, std::span<const uint32_t> index_of_body, size_t room)
 {
-  std::vector<uint32_t> colors(graph.body_colors.size());
-  for (size_t body = 0; body < index_of_body.size(); ++body)
+  std::vector<uint32_t> colors(2 * room);
+  for (size_t body = 0; 2 * body < graph.body_colors.size(); ++body)
     for (size_t word = 0; word < 2; ++word)
       colors[2 * size_t{index_of_body[body]} + word] = graph.body_colors[2 * body + word];
   uploads.add(Buffer::body_joint_colors, std::move(colors));
@@ -184,14 +185,14 @@ uint32_t joined_pair_entries(const Scene &scene)
 }
 
 void stage_joints(StagedUploads &uploads, const Scene &scene, const JointGraph &graph,
-                  std::span<const uint32_t> index_of_body, uint32_t first_pair)
+                  std::span<const uint32_t> index_of_body, size_t room, uint32_t first_pair)
 {
   if (scene.joints.empty()) return;
   JointRows rows;
   for (const uint32_t joint : graph.order) rows.add(scene.joints[joint], index_of_body);
   rows.stage(uploads);
   stage_axes(uploads, scene, graph);
-  stage_colors(uploads, graph, index_of_body);
+  stage_colors(uploads, graph, index_of_body, room);
   stage_joined_pairs(uploads, scene, graph, index_of_body, first_pair);
 }
 

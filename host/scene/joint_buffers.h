@@ -25,9 +25,9 @@ std::vector<bool> joined_bodies(const Scene &scene);
 /* The entries of JointGraph::joined_pairs. */
 uint32_t joined_pair_entries(const Scene &scene);
 
-/* index_of_body: of each body of the scene in the buffers. first_pair: of body_filter, where the table of joined pairs
- * begins. */
+/* index_of_body: of each body of the scene in the buffers, which have room for so many. first_pair: of body_filter,
+ * where the table of joined pairs begins. */
 void stage_joints(StagedUploads &uploads, const Scene &scene, const JointGraph &graph,
-                  std::span<const uint32_t> index_of_body, uint32_t first_pair);
+                  std::span<const uint32_t> index_of_body, size_t room, uint32_t first_pair);
 
 } // namespace tandem

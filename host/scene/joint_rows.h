@@ -15,20 +15,20 @@ struct JointRow {
   uint32_t directions, rotations; /* locked: bits JOINT_X, JOINT_Y, JOINT_Z of shared/joints/joint_codes.h */
 };
 
-std::span<const JointRow> joint_rows(); /* in the order of the enum */
-const JointRow &row_of(JointType type);
+TANDEM_API std::span<const JointRow> joint_rows(); /* in the order of the enum */
+TANDEM_API const JointRow &row_of(JointType type);
 
 /* What a joint holds: bits JOINT_X, JOINT_Y, JOINT_Z. */
 struct HeldAxes {
   uint32_t directions, rotations;
 };
-HeldAxes held_by(const Joint &joint);
+TANDEM_API HeldAxes held_by(const Joint &joint);
 
 /* An axis of a joint that is limited, driven or braked; kind: JOINT_AXIS_ of joint_codes.h. */
 struct UsedAxis {
   uint32_t kind;
   JointAxis axis;
 };
-std::vector<UsedAxis> axes_used_by(const Joint &joint);
+TANDEM_API std::vector<UsedAxis> axes_used_by(const Joint &joint);
 
 } // namespace tandem

@@ -28,7 +28,7 @@ void World::Implementation::stage_joint_tables(StagedUploads &uploads) const
 {
   std::vector<uint32_t> indices(scene.bodies.size());
   for (uint32_t i = 0; i < special.order.size(); ++i) indices[special.order[i]] = i;
-  stage_joints(uploads, scene, joint_graph, indices, first_joined_pair(sizes()));
+  stage_joints(uploads, scene, joint_graph, indices, plan.bodies, first_joined_pair(sizes()));
 }
 
 /* slots: of bodies that a call would change in a way that their joints cannot follow. */

@@ -248,7 +248,8 @@ TEST_CASE("a gyroscope on a ball joint precesses at the rate of theory", "[physi
   const Settings settings = settings_with(step);
   const Precession result = precession_of(scene, settings, on_serial, rate, 3);
   CAPTURE(step, spin, result.rate_error, result.momentum_error, result.height);
-  /* The support opens by its load, the weight, as an acceleration of the end of the top, whose effective mass is small. */
+  /* The support opens by its load, the weight, as an acceleration of the end of the top, whose effective mass is
+   * small. */
   const double h = substep_of(settings), end = 1 + 0.5 * 0.5 / double(top_moment);
   const double open = gravity * end * (Softness(settings).stretch + 0.5 * h / Softness(settings).rate);
   CHECK(result.rate_error < 0.5 * rate * h + open);

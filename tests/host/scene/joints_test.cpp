@@ -1,0 +1,100 @@
+/* Joints that hold nothing or cannot be simulated are refused by one line that says which, what and why. */
+#include <functional>
+#include <limits>
+
+#include <tandem/scene.h>
+
+#include "tests/catch.h"
+
+using namespace tandem;
+using Catch::Matchers::ContainsSubstring;
+
+namespace {
+
+constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
+
+/* Two dynamic bodies and two that are not, with one joint. */
+Scene joined_scene()
+{
+  Scene scene;
+  scene.shapes = {sphere_shape(0.5f)};
+  scene.bodies.resize(4);
+  scene.bodies[2].type = BodyType::fixed;
+  scene.bodies[3].type = BodyType::kinematic;
+  Joint joint;
+  joint.name = "knee";
+  joint.body_a = 0;
+  joint.body_b = 1;
+  scene.joints = {joint};
+  return scene;
+}
+
+std::string joint_complaint(const std::function<void(Joint &)> &spoil)
+{
+  Scene scene = joined_scene();
+  spoil(scene.joints[0]);
+  try {
+    validate(scene, "leg.json");
+  } catch (const InputError &error) {
+    return error.what();
+  }
+  return "";
+}
+
+void check_joint_refused(const std::string &why, const std::function<void(Joint &)> &spoil)
+{
+  const std::string complaint = joint_complaint(spoil);
+  CAPTURE(complaint);
+  CHECK(complaint.find("leg.json: joint 0 'knee': ") == 0);
+  CHECK(complaint.find('\n') == std::string::npos);
+  CHECK_THAT(complaint, ContainsSubstring(why));
+}
+
+} // namespace
+
+TEST_CASE("sound joints pass validation")
+{
+  CHECK(joint_complaint([](Joint &) {}).empty());
+  for (size_t k = 0; k < joint_type_names().size(); ++k) {
+    CAPTURE(joint_type_names()[k]);
+    CHECK(joint_complaint([&](Joint &j) { j.type = static_cast<JointType>(k); }).empty());
+  }
+  CHECK(joint_complaint([](Joint &j) { j.body_a = no_body; }).empty());
+  CHECK(joint_complaint([](Joint &j) { j.body_b = 2; }).empty());
+  CHECK(joint_complaint([](Joint &j) { j.body_a = 3; }).empty());
+  CHECK(joint_complaint([](Joint &j) {
+          j.body_a = no_body;
+          j.position_a = {1e17, 0, -1e17};
+        }).empty());
+}
+
+TEST_CASE("joints that cannot be simulated are refused by name")
+{
+  check_joint_refused("unknown type; ball, fixed, hinge", [](Joint &j) { j.type = static_cast<JointType>(99); });
+  check_joint_refused("body_a 4 does not exist; the scene has 4 bodies", [](Joint &j) { j.body_a = 4; });
+  check_joint_refused("body_b 4000000000 does not exist", [](Joint &j) { j.body_b = 4000000000u; });
+  check_joint_refused("connects body 1 with itself", [](Joint &j) { j.body_a = 1; });
+  check_joint_refused("connects the world with itself", [](Joint &j) { j.body_a = j.body_b = no_body; });
+  check_joint_refused("neither of its bodies is dynamic", [](Joint &j) {
+    j.body_a = 2;
+    j.body_b = 3;
+  });
+  check_joint_refused("neither of its bodies is dynamic", [](Joint &j) {
+    j.body_a = no_body;
+    j.body_b = 2;
+  });
+  check_joint_refused("position_a is [", [](Joint &j) { j.position_a[1] = not_a_number; });
+  check_joint_refused("position_b is ", [](Joint &j) { j.position_b[2] = std::numeric_limits<double>::infinity(); });
+  check_joint_refused("position_b is 1e+30", [](Joint &j) { j.position_b[2] = 1e30; });
+  check_joint_refused("orientation_a is [0, 0, 0, 2]", [](Joint &j) { j.orientation_a = {0, 0, 0, 2}; });
+  check_joint_refused("orientation_b is [0, 0, 0, 0]", [](Joint &j) { j.orientation_b = {0, 0, 0, 0}; });
+  check_joint_refused("orientation_b is [nan", [](Joint &j) { j.orientation_b[0] = not_a_number; });
+}
+
+TEST_CASE("the second of two joints is named by its number")
+{
+  Scene scene = joined_scene();
+  scene.joints.resize(2);
+  scene.joints[1].body_a = 7;
+  CHECK_THROWS_WITH(validate(scene, "x"), ContainsSubstring("x: joint 1: body_a 7 does not exist"));
+}

@@ -1,0 +1,64 @@
+/* joints.h - scenes with joints for the tests of equal bits. */
+#pragma once
+
+#include "tests/parity/parity.h"
+#include "tests/physics/joints.h"
+
+namespace tandem::parity {
+
+/* A bridge of planks, which overlap a little, on hinges between two posts, and boxes that fall onto it. */
+inline Scene bridge(int planks = 8, int boxes = 6)
+{
+  using namespace physics_tests;
+  Scene scene = empty_scene();
+  scene.name = "bridge";
+  add_ground(scene);
+  for (const double x : {-0.5, planks + 0.5}) add_body(scene, BodyType::fixed, box_shape(0.4f, 1, 1), {x, 2, 0});
+  for (int i = 0; i < planks; ++i) {
+    add_body(scene, BodyType::dynamic, box_shape(0.52f, 0.1f, 1), {i + 0.5, 3, 0}).mass = 5;
+    const auto plank = uint32_t(scene.bodies.size() - 1);
+    connect(scene, JointType::hinge, i == 0 ? 1 : plank - 1, plank, {double(i), 3, 0}, Vector::UnitZ());
+  }
+  connect(scene, JointType::hinge, uint32_t(scene.bodies.size() - 1), 2, {double(planks), 3, 0}, Vector::UnitZ());
+  for (int i = 0; i < boxes; ++i)
+    add_body(scene, BodyType::dynamic, box_shape(0.3f, 0.2f, 0.25f), {1 + 0.9 * i, 3.4 + 0.1 * i, 0.2 * (i % 3)});
+  return scene;
+}
+
+/* Bodies in a heap with random joints of all types between neighbours, the world, what is fixed and what is kinematic;
+ * some collide though they are joined, some have locks, and one has more joints than there are colours. */
+inline Scene joint_crowd(uint64_t seed = 1, uint32_t bodies = 110)
+{
+  using namespace physics_tests;
+  Random random(seed);
+  Scene scene = empty_scene();
+  scene.name = "joint crowd";
+  add_ground(scene);
+  add_body(scene, BodyType::kinematic, box_shape(0.5f, 0.5f, 0.5f), {0, 4, -2}).angular_velocity = {0, 1, 0};
+  for (uint32_t i = 0; i < bodies; ++i) {
+    const Shape shape = i % 3 ? box_shape(0.3f, 0.2f, 0.4f) : sphere_shape(0.3f);
+    const Point at{0.7 * (i % 5), 0.6 + 0.7 * (i / 25), 0.7 * (i / 5 % 5)};
+    Body &body = add_body(scene, BodyType::dynamic, shape, at);
+    body.orientation = any_turn(random);
+    body.linear_velocity = vec3_of(direction(random));
+    body.mass = float(random.uniform(0.5, 2));
+    if (random.below(12) == 0) body.linear_locks = {false, false, true};
+    if (random.below(12) == 0) body.angular_locks = {true, false, false};
+  }
+  const auto any_type = [&] { return all_joint_types[random.below(uint32_t(std::size(all_joint_types)))]; };
+  const auto middle = [&](uint32_t a, uint32_t b) {
+    return Vector(0.5 * (vector_of(scene.bodies[a].position) + vector_of(scene.bodies[b].position)));
+  };
+  for (uint32_t i = 3; i < bodies + 2; ++i) {
+    if (random.below(3) == 0) continue;
+    const uint32_t other = random.below(8) == 0 ? no_body : random.below(8) == 0 ? 1 : i - 1;
+    const bool turned = random.below(2) == 0;
+    const Vector at = other == no_body ? vector_of(scene.bodies[i].position) : middle(i, other);
+    connect(scene, any_type(), turned ? i : other, turned ? other : i, at, direction(random)).collide =
+        random.below(4) == 0;
+  }
+  for (uint32_t i = 3; i < std::min(bodies + 2, 75u); ++i) connect(scene, JointType::ball, 2, i, middle(2, i));
+  return scene;
+}
+
+} // namespace tandem::parity
