@@ -23,8 +23,8 @@ struct JointGraph {
   std::vector<uint32_t> body_colors; /* two words a body of the scene: a bit for each colour in use */
   uint32_t colors = 0;               /* in use; COLOR_LIMIT + 1 if there are overflow joints */
   uint32_t axes = 0;                 /* the most that a joint limits, drives or brakes */
-  /* The size of the table of pairs that do not collide (shared/broadphase/joined_pairs.h): a power of two, or 0 if there
-   * are none. */
+  /* The size of the table of pairs that do not collide (shared/broadphase/joined_pairs.h): a power of two, or 0 if
+   * there are none. */
   uint32_t joined_pairs = 0;
 };
 

@@ -299,8 +299,8 @@ void World::Implementation::guess_counts() noexcept
   known.fill(plan.capacity_pairs);
   known[COUNT_KEPT] = 0;
   for (const auto &[entry, value] : scene_entries) known[entry] = value;
-  for (const auto &[entry, value] : joint_entries_of(joint_graph.starts)) known[entry] = value;
-  known[COUNT_COMMIT_JOINTS] = joint_graph.starts.back();
+  std::copy(joint_graph.starts.begin(), joint_graph.starts.end(), known.begin() + JOINT_COLOR_START);
+  known[COUNT_JOINTS] = known[COUNT_COMMIT_JOINTS] = joint_graph.starts.back();
   known[COUNT_COMMIT_BODIES] = special.awake;
   known[COUNT_COMMIT_BODIES_PLUS_ONE] = special.awake + 1;
   known[COUNT_CELLS_PLUS_ONE] = plan.capacity_cells + 1;

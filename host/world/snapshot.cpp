@@ -8,6 +8,7 @@
 
 #include "host/runtime/interface/module.h"
 #include "host/runtime/parts.h"
+#include "host/scene/joint_buffers.h"
 #include "host/world/implementation.h"
 #include "host/world/snapshot_fields.h"
 #include "host/world/snapshot_scene.h"
@@ -301,6 +302,8 @@ SavedBuffer get_buffer(ByteReader &reader)
 void check_sizes(const ByteReader &reader, const SnapshotContents &contents)
 {
   const auto bodies = static_cast<uint32_t>(contents.scene.bodies.size());
+  const size_t joints = contents.scene.joints.size();
+  const uint32_t axes = most_axes_of_joint(contents.scene);
   for (const auto &[buffer, bytes] : contents.buffers) {
     const BufferRow &row = row_of(buffer);
     uint64_t items = bytes.size() / item_bytes(buffer);
@@ -308,6 +311,8 @@ void check_sizes(const ByteReader &reader, const SnapshotContents &contents)
     if (row.capacity == Capacity::BODIES) items = bodies;
     if (row.capacity == Capacity::BODIES_PLUS_ONE) items = uint64_t{contents.special.awake} + 1;
     if (row.capacity == Capacity::PAIRS) items = contents.pairs;
+    if (row.capacity == Capacity::JOINTS) items = joints;
+    if (row.capacity == Capacity::JOINT_AXES) items = uint64_t{joints} * axes;
     if (bytes.size() != items * item_bytes(buffer))
       reader.fail(fmt::format("buffer {} has {} bytes; {} items need {}", row.name, bytes.size(), items,
                               items * item_bytes(buffer)));

@@ -47,8 +47,7 @@ TEST_CASE("an impulse at a point changes both velocities by its laws", "[sanitiz
     CHECK(state.angular_velocity[k] == Approx(moment[k] / inertia[k]).epsilon(1e-5));
   }
   world.add_impulse(slab, {{}, {0, 2, 0}});
-  CHECK(world.read_body(slab).angular_velocity[1] ==
-        Approx(state.angular_velocity[1] + 2 / inertia[1]).epsilon(1e-6));
+  CHECK(world.read_body(slab).angular_velocity[1] == Approx(state.angular_velocity[1] + 2 / inertia[1]).epsilon(1e-6));
 }
 
 TEST_CASE("calls to one body take effect in their order", "[sanitizer]")

@@ -34,6 +34,7 @@ const std::vector<Case> cases = {
     {"box-grid:nx=2,ny=2,nz=2", Solver::avbd, Broadphase::sap3},
     {"compounds:n=6", Solver::pgs, Broadphase::bvh},
     {TANDEM_SOURCE_DIR "/tests/scenes/rolling_balls.json", Solver::soft_step, Broadphase::hybrid},
+    {"ragdolls:n=2,height=0", Solver::soft_step, Broadphase::grid},
     {"spheres:n=12,height=0", Solver::jacobi, Broadphase::grid}};
 
 /* After so many steps; with events, forces and sleeping, which carry buffers of their own. No body rests long enough to
@@ -44,8 +45,9 @@ std::unique_ptr<World> world_of(const Case &c, uint64_t steps)
   settings.broadphase = c.broadphase;
   if (c.automatic) settings.substeps = automatic_substeps;
   settings.events = true;
-  settings.sleeping = true;
-  auto world = std::make_unique<World>(load_scene(c.scene), settings, Placement{"serial", {}, false});
+  const Scene scene = load_scene(c.scene);
+  settings.sleeping = scene.joints.empty();
+  auto world = std::make_unique<World>(scene, settings, Placement{"serial", {}, false});
   world->add_force(world->id_of(1), {0, 0.01f, 0});
   for (uint64_t k = 0; k < steps; ++k) world->step();
   return world;
@@ -61,8 +63,10 @@ size_t words_of(World &world, Buffer buffer)
 {
   const BufferRow &row = row_of(buffer);
   const size_t bodies = bodies_of(world);
+  const bool is_of_joints = row.capacity == Capacity::JOINTS || row.capacity == Capacity::JOINT_AXES;
   const size_t items = row.capacity == Capacity::BODIES            ? bodies
                        : row.capacity == Capacity::BODIES_PLUS_ONE ? bodies + 1
+                       : is_of_joints                              ? world.memory().bytes(buffer) / item_bytes(buffer)
                                                                    : pairs_of(world);
   return items * row.per_item * size_of(row.element) / sizeof(uint32_t);
 }

@@ -73,8 +73,8 @@ TEST_CASE("who is quarantined does not depend on how often a step was repeated")
     const Point place = world.bodies()[7].position;
     World restored(world.save(), {"serial", {}});
     for (World *one : {&world, &restored}) {
-      one->set_body_unchecked(
-          3, {{place[0], place[1] + 0.9, place[2]}, {0, 0, 0, 1}, {0, -3e38f, 0}, {0, 3e38f, 3e38f}});
+      one->set_body_unchecked(3,
+                              {{place[0], place[1] + 0.9, place[2]}, {0, 0, 0, 1}, {0, -3e38f, 0}, {0, 3e38f, 3e38f}});
       for (int k = 0; k < 3; ++k) one->step();
     }
     REQUIRE(world.state_hash() == restored.state_hash());

@@ -565,9 +565,29 @@ TEST_CASE("every field of a body, a material and the settings is in a snapshot",
                     14,
                     15,
                     16,
-                    17};
+                    17,
+                    18,
+                    19};
   CHECK(equal_fields(settings, Settings{}) == 0);
   CHECK(all_equal(copied(settings), settings));
+  const JointAxis axis{1, 2, 3, 4, 5, 6, 7, 8, true, 9, 10, 11};
+  CHECK(equal_fields(axis, JointAxis{}) == 0);
+  CHECK(all_equal(copied(axis), axis));
+  const Joint joint{"knee",
+                    JointType::hinge,
+                    1,
+                    2,
+                    {1, 2, 3},
+                    {4, 5, 6},
+                    {1, 0, 0, 0},
+                    {0, 1, 0, 0},
+                    true,
+                    {true, false, false},
+                    {false, true, false},
+                    {axis, axis, axis},
+                    {axis, axis, axis}};
+  CHECK(equal_fields(joint, Joint{}) == 0);
+  CHECK(all_equal(copied(joint), joint));
 }
 
 TEST_CASE("shapes share in a restored scene what they shared, and keep every field", "[sanitizer]")

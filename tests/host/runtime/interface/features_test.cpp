@@ -82,9 +82,10 @@ TEST_CASE("features: parameters in double keep all 64 bits")
   storage.read(handle, 0, &back, sizeof back);
   CHECK(back.features == parameters.features);
   CHECK(back.inverse_batch_cell == 3);
-  const size_t reals = offsetof(Parameters, features) / sizeof(float);
+  constexpr size_t reals = offsetof(Parameters, sleep_steps) / sizeof(float),
+                   wholes = offsetof(Parameters, features) - offsetof(Parameters, sleep_steps);
   Features wide = 0; /* where the kernels in double look for it */
-  std::memcpy(&wide, static_cast<const double *>(handle) + reals, sizeof wide);
+  std::memcpy(&wide, static_cast<const char *>(handle) + reals * sizeof(double) + wholes, sizeof wide);
   CHECK(wide == parameters.features);
   storage.release(handle);
 }
