@@ -91,10 +91,12 @@ Scene pendulums(const SceneValues &v)
   Scene scene;
   scene.shapes = {sphere_shape(round_to_float(radius))};
   for (int64_t i = 0; i < n; ++i) {
-    const double angle = number(v, "angle") * double(i + 1) / double(n), z = 3 * radius * double(i);
+    const double t = number(v, "tangent") * double(i + 1) / double(n), half_cosine = 1 / std::sqrt(1 + t * t),
+                 half_sine = t * half_cosine, z = 3 * radius * double(i);
+    const double sine = 2 * half_sine * half_cosine, cosine = half_cosine * half_cosine - half_sine * half_sine;
     const auto index = static_cast<uint32_t>(scene.bodies.size());
-    Body &ball = add_body(scene, 0, {length * std::sin(angle), -length * std::cos(angle), z});
-    ball.orientation = {0, 0, round_to_float(std::sin(0.5 * angle)), round_to_float(std::cos(0.5 * angle))};
+    Body &ball = add_body(scene, 0, {length * sine, -length * cosine, z});
+    ball.orientation = {0, 0, round_to_float(half_sine), round_to_float(half_cosine)};
     Joint &joint = connect(scene, JointType::hinge, no_body, {0, 0, z}, index, {0, length, 0});
     joint.orientation_a = joint.orientation_b = x_to_z;
   }
@@ -115,7 +117,7 @@ Scene bridge(const SceneValues &v)
   const double half = 0.25, thick = 0.05, wide = 1, end = 2 * half * double(planks);
   Scene scene;
   add_ground(scene);
-  const uint32_t plank = add_shape(scene, box_shape(float(half), float(thick), float(wide))),
+  const uint32_t plank = add_shape(scene, box_shape(round_to_float(half), round_to_float(thick), round_to_float(wide))),
                  ball = add_shape(scene, sphere_shape(0.3f));
   const double height = number(v, "height");
   for (const double x : {-half, end + half}) add_body(scene, plank, {x, height, 0}).type = BodyType::fixed;
@@ -147,8 +149,8 @@ Scene wrecking_ball(const SceneValues &v)
   const double half = 0.25, radius = 0.8, height = 2 * half * double(links) + radius + 1;
   Scene scene;
   add_ground(scene);
-  const uint32_t link = add_shape(scene, capsule_shape(0.08f, float(half - 0.08))),
-                 ball = add_shape(scene, sphere_shape(float(radius))),
+  const uint32_t link = add_shape(scene, capsule_shape(0.08f, round_to_float(half - 0.08))),
+                 ball = add_shape(scene, sphere_shape(round_to_float(radius))),
                  brick = add_shape(scene, box_shape(0.5f, 0.25f, 0.25f));
   uint32_t before = no_body;
   Point hook{0, height, 0};
@@ -192,7 +194,7 @@ std::vector<BuiltInScene> joint_scenes()
        "balls on hinges, let go at different angles",
        {{"n", integer, 8, 1, 100000, "pendulums"},
         {"length", real, 1, 0.01, 100, "from the hinge to the centre of the ball, m"},
-        {"angle", real, 1.5, 0, 3.1, "of the last of them from the vertical, rad"}},
+        {"tangent", real, 1, 0, 100, "of half the angle of the last of them from the vertical"}},
        number_of_links,
        pendulums},
       {"bridge",

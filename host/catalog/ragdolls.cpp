@@ -8,6 +8,7 @@
  */
 #include "host/catalog/ragdolls.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <tandem/round_to_float.h>
@@ -70,20 +71,38 @@ double mass_of_capsule(const Part &part)
 
 Point centre_of(size_t part) { return {parts[part].x, parts[part].y, part < capsules ? 0 : foot_ahead}; }
 
-/* A point that was turned about y. */
-Point turned_about_y(const Point &p, double angle)
-{
-  return {std::cos(angle) * p[0] + std::sin(angle) * p[2], p[1], std::cos(angle) * p[2] - std::sin(angle) * p[0]};
-}
+/* A turn about y, without a library's sines, which differ from one to another. */
+struct Heading {
+  double sine = 0, cosine = 1;
 
-void add_part(Scene &scene, size_t part, const Point &at, double angle)
+  explicit Heading(Random &random)
+  {
+    double x = 0, z = 0, squared = 0;
+    while (squared < 0.01 || squared > 1) {
+      x = random.uniform(-1, 1);
+      z = random.uniform(-1, 1);
+      squared = x * x + z * z;
+    }
+    sine = x / std::sqrt(squared);
+    cosine = z / std::sqrt(squared);
+  }
+  Point turned(const Point &p) const { return {cosine * p[0] + sine * p[2], p[1], cosine * p[2] - sine * p[0]}; }
+  Quat orientation() const
+  {
+    const double half_cosine = std::sqrt(0.5 * (1 + std::max(cosine, -1.0)));
+    const double half_sine = std::copysign(std::sqrt(0.5 * (1 - std::min(cosine, 1.0))), sine);
+    return {0, round_to_float(half_sine), 0, round_to_float(half_cosine)};
+  }
+};
+
+void add_part(Scene &scene, size_t part, const Point &at, const Heading &heading)
 {
   const double mass =
       part < capsules ? mass_of_capsule(parts[part]) : density_of_water * 8 * foot[0] * foot[1] * foot[2];
-  const Point p = turned_about_y(centre_of(part), angle);
+  const Point p = heading.turned(centre_of(part));
   Body &body = add_body(scene, static_cast<uint32_t>(1 + part), {at[0] + p[0], at[1] + p[1], at[2] + p[2]},
                         round_to_float(mass));
-  body.orientation = {0, round_to_float(std::sin(0.5 * angle)), 0, round_to_float(std::cos(0.5 * angle))};
+  body.orientation = heading.orientation();
   body.name = parts[part].name;
 }
 
@@ -127,11 +146,12 @@ Scene ragdolls(const SceneValues &v)
                          : box_shape(round_to_float(foot[0]), round_to_float(foot[1]), round_to_float(foot[2])));
   for (int64_t i = 0; i < n; ++i) {
     const int64_t within = i % (side * side);
-    const double angle = random.uniform(0, 2 * M_PI), middle = 0.5 * double(side - 1);
+    const Heading heading(random);
+    const double middle = 0.5 * double(side - 1);
     const Point at{(double(within % side) - middle) * pitch, height + double(i / (side * side)) * 2,
                    (double(within / side) - middle) * pitch};
     const auto first = static_cast<uint32_t>(scene.bodies.size());
-    for (size_t part = 0; part < parts_of_person; ++part) add_part(scene, part, at, angle);
+    for (size_t part = 0; part < parts_of_person; ++part) add_part(scene, part, at, heading);
     for (const Connection &connection : connections) connect_parts(scene, connection, first);
   }
   return scene;

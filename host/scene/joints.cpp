@@ -3,7 +3,6 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <ranges>
 
 #include "host/scene/checker.h"
 #include "host/scene/joint_rows.h"
@@ -18,8 +17,11 @@ std::span<const JointRow> joint_rows()
 #include "shared/joints.def"
 #undef JOINT
   };
-  static_assert(std::ranges::equal(rows, std::views::iota(size_t{0}, std::size(rows)), {},
-                                   [](const JointRow &row) { return static_cast<size_t>(row.choice); }));
+  static_assert([] {
+    for (size_t k = 0; k < std::size(rows); ++k)
+      if (static_cast<size_t>(rows[k].choice) != k) return false;
+    return true;
+  }());
   return rows;
 }
 

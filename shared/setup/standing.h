@@ -89,9 +89,11 @@ SHARED mask stands_near(GLOBAL const Parameters *parameters, GLOBAL const memory
 {
   real reach = R(0.5) * parameters->gravity_length * parameters->step * parameters->step;
   mask near = reach < R(0.0); /* none yet */
-  for (uint k = 0; k < 4u; ++k)
-    near = near | ((load_point_mass(constraint_points, planes, k, i) > R(0.0)) &
-                   (load_separation(constraint_points, planes, k, i) <= reach));
+  for (uint k = 0; k < 4u; ++k) {
+    mask used = load_point_mass(constraint_points, planes, k, i) > R(0.0),
+         close = load_separation(constraint_points, planes, k, i) <= reach;
+    near = near | (used & close);
+  }
   return near;
 }
 
