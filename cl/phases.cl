@@ -81,7 +81,7 @@ static inline uint meet_other_groups(volatile __global uint *arrivals, uint want
 }
 
 /* One phase of the test of a device: each item takes the number that the neighbouring group's has, and adds one. */
-static inline void pass_on(__global uint *ring, uint phase)
+static inline void pass_along_ring(__global uint *ring, uint phase)
 {
   const uint place = (uint)get_global_id(0), places = (uint)get_global_size(0);
   __global const uint *from = ring + (phase % 2u) * places;
@@ -113,7 +113,7 @@ static inline uint place_among_groups(void)
     if ((row[PHASE_GROUPS_AT] || get_group_id(0) == 0) && !deadlock[0]) {                               \
       const uint first = range[row[PHASE_RANGE_AT]], last = range[row[PHASE_RANGE_AT + 1u]];            \
       switch (row[0]) {                                                                                 \
-      case PHASE_OF_TEST: pass_on(arrivals + ARRIVALS_RING, phase); break;
+      case PHASE_OF_TEST: pass_along_ring(arrivals + ARRIVALS_RING, phase); break;
 #define END_PHASES                                                                                          \
   }                                                                                                         \
   }                                                                                                         \
