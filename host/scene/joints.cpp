@@ -182,6 +182,10 @@ void validate(const Scene &scene, const Joint &joint, size_t index, const std::s
         fmt::format("held_directions and held_rotations are of a six_dof joint; a joint of type {} holds what its "
                     "type says",
                     row_of(joint.type).name));
+  const Axes &held = joint.held_rotations;
+  if (held.x && !(held.y && held.z)) /* the lean of x says nothing of the turn about it: shared/joints/solve.h */
+    check.fail("held_rotations have x without y and z; x is held together with both, or limited to one angle by "
+               "rotations[0]");
   check_axes(joint, check);
 }
 

@@ -98,3 +98,32 @@ TEST_CASE("the second of two joints is named by its number")
   scene.joints[1].body_a = 7;
   CHECK_THROWS_WITH(validate(scene, "x"), ContainsSubstring("x: joint 1: body_a 7 does not exist"));
 }
+
+TEST_CASE("axes that no joint can have are refused, with the axis")
+{
+  const auto spoil_axis = [](const std::function<void(JointAxis &)> &spoil) {
+    return [spoil](Joint &j) {
+      j.type = JointType::hinge;
+      spoil(j.rotations[0]);
+    };
+  };
+  check_joint_refused("rotations[0] is from 1 to -1", spoil_axis([](JointAxis &a) { a.lower = 1, a.upper = -1; }));
+  check_joint_refused("rotations[0] is from nan", spoil_axis([](JointAxis &a) { a.lower = not_a_number; }));
+  check_joint_refused("rotations[0].stiffness", spoil_axis([](JointAxis &a) { a.stiffness = -1; }));
+  check_joint_refused("rotations[0].damping", spoil_axis([](JointAxis &a) { a.damping = not_a_number; }));
+  check_joint_refused("rotations[0].friction", spoil_axis([](JointAxis &a) { a.friction = -2; }));
+  check_joint_refused("rotations[0].max_force", spoil_axis([](JointAxis &a) { a.max_force = not_a_number; }));
+  check_joint_refused("rotations[0].max_speed", spoil_axis([](JointAxis &a) { a.max_speed = 0; }));
+  check_joint_refused("rotations[0].target_velocity",
+                      spoil_axis([](JointAxis &a) { a.target_velocity = JointAxis::unlimited; }));
+  check_joint_refused("a motor has neither", spoil_axis([](JointAxis &a) { a.motor = true, a.stiffness = 1; }));
+  check_joint_refused("rotations[1] is not free in a joint of type hinge", [](Joint &j) {
+    j.type = JointType::hinge;
+    j.rotations[1].friction = 1;
+  });
+  check_joint_refused("are of a six_dof joint", [](Joint &j) { j.held_rotations.y = true; });
+  check_joint_refused("x without y and z", [](Joint &j) {
+    j.type = JointType::six_dof;
+    j.held_rotations.x = true;
+  });
+}
