@@ -60,7 +60,7 @@ Kinds kinds_of(const Joint &joint)
   if (joint.type == JointType::distance)
     kinds = {JOINT_AXIS_DISTANCE, JOINT_AXIS_NONE, JOINT_AXIS_NONE, JOINT_AXIS_NONE, JOINT_AXIS_NONE, JOINT_AXIS_NONE};
   if (joint.type == JointType::cone_twist) kinds[4] = JOINT_AXIS_CONE, kinds[5] = JOINT_AXIS_NONE;
-  if (joint.type == JointType::universal) kinds[5] = JOINT_AXIS_NONE;
+  if (joint.type == JointType::universal) kinds[4] = kinds[5] = JOINT_AXIS_NONE;
   return kinds;
 }
 
@@ -144,6 +144,24 @@ void check_axis(const std::string &field, const JointAxis &axis, const Checker &
   check.speed(name("max_speed").c_str(), axis.max_speed);
 }
 
+/* Angles count from -pi to pi, so a limit on one side, or a range of a turn, would say nothing there. */
+void check_range(const std::string &field, uint32_t kind, const JointAxis &axis, const Checker &check)
+{
+  constexpr float half_turn = 3.1415927f;
+  const bool is_angle = kind == JOINT_AXIS_TWIST || kind == JOINT_AXIS_SWING_Y || kind == JOINT_AXIS_SWING_Z,
+             has_none = std::isinf(axis.lower) && std::isinf(axis.upper) && axis.lower < axis.upper;
+  if (!has_none && axis.lower == axis.upper && !(std::abs(axis.lower) <= longest_length))
+    check.fail(fmt::format("{} is held at {}, where nothing can be", field, axis.lower));
+  if (is_angle && !has_none && !(axis.lower >= -half_turn && axis.upper <= half_turn))
+    check.fail(fmt::format("{} is from {} to {} rad; an angle has both limits, between -pi and pi, or none", field,
+                           axis.lower, axis.upper));
+  if ((kind == JOINT_AXIS_CONE || kind == JOINT_AXIS_DISTANCE) && axis.upper < 0)
+    check.fail(fmt::format("{} is at most {}, and it is never below 0", field, axis.upper));
+  if (axis.limit_damping > 0 && axis.limit_stiffness == 0)
+    check.fail(fmt::format("{}.limit_damping is {} without a limit_stiffness; hard limits have none", field,
+                           axis.limit_damping));
+}
+
 void check_axes(const Joint &joint, const Checker &check)
 {
   static constexpr const char *fields[] = {"directions[0]", "directions[1]", "directions[2]",
@@ -155,6 +173,7 @@ void check_axes(const Joint &joint, const Checker &check)
       check.fail(
           fmt::format("{} is not free in a joint of type {}; leave it away", fields[k], row_of(joint.type).name));
     check_axis(fields[k], *axes[k], check);
+    check_range(fields[k], kinds[k], *axes[k], check);
   }
 }
 

@@ -38,12 +38,22 @@ double length_along(uint32_t axes, const Eigen::Vector3d &v)
       .norm();
 }
 
-/* Of a rotation between two frames: the whole of it, or how far it leans the axis x. */
+/* Of a rotation between two frames: the whole of it, or how far it leans the axis x, about y, z or both. */
 double angle_of(uint32_t rotations, const Eigen::Quaterniond &q)
 {
   if (rotations == 0) return 0;
   if (rotations == JOINT_XYZ) return 2 * std::atan2(q.vec().norm(), std::abs(q.w()));
+  const Eigen::Vector3d x = q * Eigen::Vector3d::UnitX();
+  if (rotations == JOINT_Y) return std::atan2(std::abs(x.z()), std::hypot(x.x(), x.y()));
+  if (rotations == JOINT_Z) return std::atan2(std::abs(x.y()), std::hypot(x.x(), x.z()));
   return 2 * std::atan2(std::hypot(q.y(), q.z()), std::hypot(q.x(), q.w()));
+}
+
+/* How far y of frame b is from the right angle to x of frame a that a universal joint holds. */
+double lean_across(const Eigen::Quaterniond &q)
+{
+  const Eigen::Vector3d y = q * Eigen::Vector3d::UnitY();
+  return std::atan2(std::abs(y.x()), std::hypot(y.y(), y.z()));
 }
 
 } // namespace
@@ -56,8 +66,9 @@ std::vector<JointError> joint_errors(const Scene &scene, const PreciseBodies &st
     const JointFrame a = frame_of(joint.body_a, joint.position_a, joint.orientation_a, states),
                      b = frame_of(joint.body_b, joint.position_b, joint.orientation_b, states);
     const Eigen::Quaterniond back = a.axes.conjugate();
-    errors.push_back(
-        {length_along(held.directions, back * (b.origin - a.origin)), angle_of(held.rotations, back * b.axes)});
+    const Eigen::Quaterniond turn = back * b.axes;
+    errors.push_back({length_along(held.directions, back * (b.origin - a.origin)),
+                      joint.type == JointType::universal ? lean_across(turn) : angle_of(held.rotations, turn)});
   }
   return errors;
 }

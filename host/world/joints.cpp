@@ -34,10 +34,13 @@ void World::Implementation::stage_joint_tables(StagedUploads &uploads) const
 /* slots: of bodies that a call would change in a way that their joints cannot follow. */
 void World::Implementation::refuse_joined(const char *call, const char *why, std::span<const uint32_t> given) const
 {
+  if (scene.joints.empty() || given.empty()) return;
+  std::vector<bool> is_given(scene.bodies.size());
+  for (const uint32_t slot : given) is_given[slot] = true;
   for (size_t k = 0; k < scene.joints.size(); ++k)
-    for (const uint32_t slot : given)
-      if (scene.joints[k].body_a == slot || scene.joints[k].body_b == slot)
-        throw InputError(fmt::format("{}: body {}: {}, because joint {} holds it", call, slot, why, k));
+    for (const uint32_t body : {scene.joints[k].body_a, scene.joints[k].body_b})
+      if (body != no_body && is_given[body])
+        throw InputError(fmt::format("{}: body {}: {}, because joint {} holds it", call, body, why, k));
 }
 
 } // namespace tandem

@@ -137,9 +137,18 @@ uint32_t World::Implementation::own_shape(uint32_t slot, const std::set<uint32_t
   return static_cast<uint32_t>(scene.shapes.size() - 1);
 }
 
+namespace {
+
+bool takes_mass_of_shape(const Body &body) { return body.type == BodyType::dynamic && body.inertia == Vec3{0, 0, 0}; }
+
+} // namespace
+
 void World::Implementation::give_parts(const char *call, const std::map<uint32_t, std::vector<Child>> &parts)
 {
   if (parts.empty()) return;
+  for (const auto &[slot, children] : parts)
+    if (takes_mass_of_shape(scene.bodies[slot]))
+      refuse_joined(call, "its centre of mass cannot move", std::span(&slot, 1));
   settle(); /* what was called before comes before */
   std::vector<uint32_t> touched;
   for (const auto &[slot, children] : parts) touched.push_back(slot);
@@ -157,8 +166,7 @@ void World::Implementation::give_parts(const char *call, const std::map<uint32_t
     taken.insert(body.shape);
     scene.shapes[body.shape] = compound_shape(children);
     validate(scene.shapes[body.shape], body.shape, call);
-    const bool follows = body.type == BodyType::dynamic && body.inertia == Vec3{0, 0, 0};
-    if (follows) take_new_mass(scene, old_shape, body);
+    if (takes_mass_of_shape(body)) take_new_mass(scene, old_shape, body);
     validate(scene, body, slot, call);
     changed.push_back(slot);
     bodies_with_parts.push_back(std::move(body));

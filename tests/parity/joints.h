@@ -25,8 +25,12 @@ inline Scene bridge(int planks = 8, int boxes = 6)
   return scene;
 }
 
-/* Bodies in a heap with random joints of all types between neighbours, the world, what is fixed and what is kinematic;
- * some collide though they are joined, some have locks, and one has more joints than there are colours. */
+/* Each kind of limit and drive on the types that have it, once to the world and once between bodies. */
+inline std::string joint_axes() { return TANDEM_SOURCE_DIR "/tests/scenes/joint_axes.json"; }
+
+/* Bodies in a heap with random joints of the types that only hold, between neighbours, the world, what is fixed and
+ * what is kinematic; some collide though they are joined, some have locks, and one has more joints than there are
+ * colours. */
 inline Scene joint_crowd(uint64_t seed = 1, uint32_t bodies = 110)
 {
   using namespace physics_tests;

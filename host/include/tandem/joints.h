@@ -68,7 +68,8 @@ struct Joint {
   Axes held_directions, held_rotations; /* of a six_dof joint */
   /* Along and about the axes of frame a: translation, and rotation as a twist about x after which a swing takes x where
    * it is. A distance joint has its distance as directions[0], a cone_twist joint the angle of its cone as
-   * rotations[1]; a universal joint turns about x of frame a (rotations[0]) and y of frame b (rotations[1]). */
+   * rotations[1]; of a universal joint the turn about x of frame a is rotations[0], and that about y of frame b has no
+   * axis here yet. Limits of rotations are both between -pi and pi; swings are right up to about 1.5 rad. */
   std::array<JointAxis, 3> directions, rotations;
 };
 

@@ -121,6 +121,21 @@ TEST_CASE("axes that no joint can have are refused, with the axis")
     j.type = JointType::hinge;
     j.rotations[1].friction = 1;
   });
+  check_joint_refused("an angle has both limits", spoil_axis([](JointAxis &a) { a.lower = -1; }));
+  check_joint_refused("an angle has both limits", spoil_axis([](JointAxis &a) { a.lower = 3, a.upper = 4; }));
+  check_joint_refused("limit_damping is 1 without", spoil_axis([](JointAxis &a) { a.limit_damping = 1; }));
+  check_joint_refused("where nothing can be", [](Joint &j) {
+    j.type = JointType::slider;
+    j.directions[0].lower = j.directions[0].upper = JointAxis::unlimited;
+  });
+  check_joint_refused("never below 0", [](Joint &j) {
+    j.type = JointType::distance;
+    j.directions[0].upper = -1;
+  });
+  check_joint_refused("rotations[1] is not free in a joint of type universal", [](Joint &j) {
+    j.type = JointType::universal;
+    j.rotations[1].friction = 1;
+  });
   check_joint_refused("are of a six_dof joint", [](Joint &j) { j.held_rotations.y = true; });
   check_joint_refused("x without y and z", [](Joint &j) {
     j.type = JointType::six_dof;

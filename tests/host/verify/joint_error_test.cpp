@@ -73,6 +73,14 @@ TEST_CASE("the errors of joints add up over directions, and turns count beyond h
   CHECK(error_of(JointType::hinge, {0, 0, 0}, {1, 1, 0}, pi, false).angle == near(pi / 2));
 }
 
+TEST_CASE("a universal joint is open by how far its axes are from a right angle")
+{
+  const auto near = [](double x) { return Approx(x).margin(1e-6); };
+  CHECK(error_of(JointType::universal, {0, 0, 0}, {1, 0, 0}, 2, false).angle == near(0));
+  CHECK(error_of(JointType::universal, {0, 0, 0}, {0, 1, 0}, 2, false).angle == near(0));
+  CHECK(error_of(JointType::universal, {0, 0, 0}, {0, 0, 1}, 0.3, false).angle == near(0.3));
+}
+
 TEST_CASE("the summary of joint errors has the largest and the mean, and zeros without joints")
 {
   const std::vector<JointError> errors = {{0.5, 0}, {0.25, 0.3}, {0, 0.1}};
