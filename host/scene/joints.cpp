@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "host/scene/axis_bits.h"
 #include "host/scene/checker.h"
 #include "host/scene/joint_rows.h"
 #include "shared/joints/joint_codes.h"
@@ -38,11 +39,6 @@ std::span<const char *const> joint_type_names()
 const JointRow &row_of(JointType type) { return joint_rows()[static_cast<size_t>(type)]; }
 
 namespace {
-
-uint32_t bits_of(const Axes &axes)
-{
-  return (axes.x ? uint32_t{JOINT_X} : 0u) | (axes.y ? uint32_t{JOINT_Y} : 0u) | (axes.z ? uint32_t{JOINT_Z} : 0u);
-}
 
 bool is_used(const JointAxis &axis) { return axis != JointAxis{}; }
 

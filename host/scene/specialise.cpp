@@ -10,6 +10,7 @@
 #include "host/runtime/interface/built_features.h"
 #include "host/runtime/interface/features.h"
 #include "host/runtime/interface/pair_tests.h"
+#include "host/scene/axis_bits.h"
 #include "host/scene/joint_buffers.h"
 #include "host/scene/shape_bounds.h"
 #include "shared/body_codes.h"
@@ -327,10 +328,7 @@ Vec3 inverse_inertia_of(const Scene &scene, const Body &body)
 
 uint32_t locks_of(const Body &body)
 {
-  const auto bits = [](const Axes &axes) {
-    return (axes.x ? uint32_t{LOCK_X} : 0u) | (axes.y ? uint32_t{LOCK_Y} : 0u) | (axes.z ? uint32_t{LOCK_Z} : 0u);
-  };
-  return is_dynamic(body) ? bits(body.linear_locks) | bits(body.angular_locks) << LOCK_ANGULAR_SHIFT : 0u;
+  return is_dynamic(body) ? bits_of(body.linear_locks) | bits_of(body.angular_locks) << LOCK_ANGULAR_SHIFT : 0u;
 }
 
 Features all_features() { return built_features() & ~FEATURE_WORLDS; }

@@ -223,7 +223,7 @@ struct World::Implementation {
 
   /* --- joints: joints.cpp ---------------------------------------------------------------------------------------- */
   void stage_joint_tables(StagedUploads &uploads) const;
-  void refuse_joined(const char *call, const char *why, std::span<const uint32_t> slots) const;
+  void refuse_joined(const char *call, const char *why, std::span<const uint32_t> given) const;
 
   /* --- shapes of bodies that come and go: shapes.cpp -------------------------------------------------------------- */
   std::vector<ShapeId> shapes_of(const BodyId &id);

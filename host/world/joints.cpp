@@ -1,13 +1,11 @@
 /* joints.cpp - the joints of a world: their tables, and what a world with joints refuses. */
-#include <algorithm>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include <tandem/error.h>
 
 #include "host/pipeline/layout.h"
-#include "host/pipeline/setting_rows.h"
-#include "host/pipeline/solvers/solvers.h"
 #include "host/scene/joint_buffers.h"
 #include "host/world/implementation.h"
 
@@ -31,7 +29,7 @@ void World::Implementation::stage_joint_tables(StagedUploads &uploads) const
   stage_joints(uploads, scene, joint_graph, indices, plan.bodies, first_joined_pair(sizes()));
 }
 
-/* slots: of bodies that a call would change in a way that their joints cannot follow. */
+/* given: slots of bodies that a call would change in a way that their joints cannot follow. */
 void World::Implementation::refuse_joined(const char *call, const char *why, std::span<const uint32_t> given) const
 {
   if (scene.joints.empty() || given.empty()) return;

@@ -146,9 +146,10 @@ bool takes_mass_of_shape(const Body &body) { return body.type == BodyType::dynam
 void World::Implementation::give_parts(const char *call, const std::map<uint32_t, std::vector<Child>> &parts)
 {
   if (parts.empty()) return;
+  std::vector<uint32_t> moved;
   for (const auto &[slot, children] : parts)
-    if (takes_mass_of_shape(scene.bodies[slot]))
-      refuse_joined(call, "its centre of mass cannot move", std::span(&slot, 1));
+    if (takes_mass_of_shape(scene.bodies[slot])) moved.push_back(slot);
+  refuse_joined(call, "its centre of mass cannot move", moved);
   settle(); /* what was called before comes before */
   std::vector<uint32_t> touched;
   for (const auto &[slot, children] : parts) touched.push_back(slot);
