@@ -20,6 +20,7 @@
 /* Joints close no faster than this, m/s and rad/s. Bodies that begin far from where a joint wants them would otherwise
  * arrive with the energy of a bullet. */
 #define JOINT_CLOSING R(10.0)
+#define LEAST_LEAK R(0.2) /* the share of the leak that is left where closing is limited (soft_rows_of) */
 
 #define HALF_TURN R(3.14159265)
 
@@ -58,7 +59,7 @@ SHARED joint_axis load_axis(GLOBAL const Parameters *parameters, read_joint_axes
 typedef struct {
   joint_coordinate at;
   vec3 moment_a, moment_b;
-  real response, mass, speed;
+  real response, shared_response, mass, speed;
 } axis_row;
 
 SHARED real response_along(joint_side s, vec3 direction, vec3 moment)
@@ -74,9 +75,11 @@ SHARED axis_row row_of_axis(joint j, joint_frames f, uint_lanes kind)
   r.at = coordinate_of(j, f, kind);
   r.moment_a = add(cross3(j.a.arm, r.at.direction), r.at.turn);
   r.moment_b = add(cross3(j.b.arm, r.at.direction), r.at.turn);
-  r.response = response_along(j.a, r.at.direction, r.moment_a) + response_along(j.b, r.at.direction, r.moment_b);
-  mask moves = r.response > R(0.0);
-  r.mass = choose(moves, R(1.0) / choose(moves, r.response, (real)R(1.0)), (real)R(0.0));
+  real of_a = response_along(j.a, r.at.direction, r.moment_a), of_b = response_along(j.b, r.at.direction, r.moment_b);
+  r.response = of_a + of_b;
+  r.shared_response = j.a.sharing * of_a + j.b.sharing * of_b;
+  mask moves = r.shared_response > R(0.0);
+  r.mass = choose(moves, R(1.0) / choose(moves, r.shared_response, (real)R(1.0)), (real)R(0.0));
   r.speed = dot3(r.at.direction, subtract(j.b.velocity.linear, j.a.velocity.linear)) +
             dot3(r.moment_b, j.b.velocity.angular) - dot3(r.moment_a, j.a.velocity.angular);
   return r;
@@ -90,7 +93,7 @@ SHARED real spring_change(GLOBAL const Parameters *parameters, const axis_row *r
   mask acts = (sum > R(0.0)) & (r->mass > R(0.0));
   real divisor = choose(acts, sum, (real)R(1.0));
   real gamma = parameters->inverse_substep / divisor, bias = (stiffness * open - damping * target_speed) / divisor;
-  real change = R(0.0) - (r->speed + bias + gamma * old) / (choose(acts, r->response, (real)R(1.0)) + gamma);
+  real change = R(0.0) - (r->speed + bias + gamma * old) / (choose(acts, r->shared_response, (real)R(1.0)) + gamma);
   return choose(acts, change, (real)R(0.0));
 }
 
@@ -128,6 +131,14 @@ SHARED real solve_axis_friction(GLOBAL const Parameters *parameters, axis_row *r
   return take_impulse(r, old, clamped(old - r->mass * r->speed, -limit, limit), sum);
 }
 
+/* The share of a closing speed that is not too fast. */
+SHARED real share_of_closing(real speed)
+{
+  real size = magnitude(speed);
+  mask limited = size > JOINT_CLOSING;
+  return choose(limited, JOINT_CLOSING / choose(limited, size, (real)R(1.0)), (real)R(1.0));
+}
+
 /* The change of the impulse of a stop. open: the way that is left, negative beyond it. In a relaxing pass, the motion
  * that a stop ahead would limit comes later. */
 SHARED real stop_change(GLOBAL const Parameters *parameters, const axis_row *r, real open, real old, uint pass)
@@ -137,10 +148,10 @@ SHARED real stop_change(GLOBAL const Parameters *parameters, const axis_row *r, 
     real relaxed = R(0.0) - r->mass * (r->speed + choose(ahead, open * parameters->inverse_substep, (real)R(0.0)));
     return choose(ahead & (old == R(0.0)), (real)R(0.0), relaxed);
   }
-  real push = maximum(parameters->joint_bias_rate * open, -JOINT_CLOSING);
-  real bias = choose(ahead, open * parameters->inverse_substep, push);
+  real push = parameters->joint_bias_rate * open, limited = share_of_closing(push);
+  real bias = choose(ahead, open * parameters->inverse_substep, push * limited);
   real share = choose(ahead, (real)R(1.0), (real)parameters->joint_mass_scale),
-       leak = choose(ahead, (real)R(0.0), (real)parameters->joint_impulse_scale);
+       leak = choose(ahead, (real)R(0.0), parameters->joint_impulse_scale * maximum(limited, LEAST_LEAK));
   return R(0.0) - r->mass * share * (r->speed + bias) - leak * old;
 }
 
@@ -148,8 +159,9 @@ SHARED real stop_change(GLOBAL const Parameters *parameters, const axis_row *r, 
 SHARED real hold_change(GLOBAL const Parameters *parameters, const axis_row *r, real open, real old, uint pass)
 {
   if (pass != PASS_BIASED) return R(0.0) - r->mass * r->speed;
-  real bias = clamped(parameters->joint_bias_rate * open, -JOINT_CLOSING, JOINT_CLOSING);
-  return R(0.0) - r->mass * parameters->joint_mass_scale * (r->speed + bias) - parameters->joint_impulse_scale * old;
+  real push = parameters->joint_bias_rate * open, limited = share_of_closing(push);
+  return R(0.0) - r->mass * parameters->joint_mass_scale * (r->speed + push * limited) -
+         parameters->joint_impulse_scale * maximum(limited, LEAST_LEAK) * old;
 }
 
 /* The coordinate as it is nearest to the range; a full turn more or less is the same angle. */

@@ -19,7 +19,8 @@ typedef struct {
   mask is_world;
   spatial_velocity velocity;
   symmetric3 inertia;
-  real locks; /* linear, as in solver_inertia */
+  real locks;   /* linear, as in solver_inertia */
+  real sharing; /* the body seems lighter to each of its joints by this factor */
   quat orientation;
   vec3 translation; /* since the step began, m */
   vec3 arm;         /* from the centre of the body to the point at which impulses act, m */
@@ -70,6 +71,7 @@ SHARED joint_side load_side(GLOBAL const Parameters *parameters, read_turning_bo
   s.translation = xyz(load_float4(bodies.delta, s.body * 2u));
   if (MAY_OCCUR(JOINTS_TO_WORLD) && any_of(s.is_world)) s = world_if(s.is_world, s);
   s.arm = rotate(rotation_of(s.orientation), xyz(local_arm));
+  s.sharing = local_arm.w;
   return s;
 }
 
@@ -123,6 +125,12 @@ SHARED vec3 closing_velocity(joint j)
   return subtract(velocity_at(j.b.velocity, j.b.arm), velocity_at(j.a.velocity, j.a.arm));
 }
 
+SHARED symmetric3 scaled_tensor(symmetric3 s, real k)
+{
+  symmetric3 r = {k * s.xx, k * s.yy, k * s.zz, k * s.xy, k * s.xz, k * s.yz};
+  return r;
+}
+
 /* The velocity at the end of the arm along the axis `row` that a unit impulse along the axis `column` gives there. */
 SHARED symmetric3 response_of_side(joint_side s)
 {
@@ -135,7 +143,7 @@ SHARED symmetric3 response_of_side(joint_side s)
   if (MAY_OCCUR(LOCKS) && any_of(s.locks > R(0.0))) mass = without_locked_axes(mass, to_uint(s.locks));
   symmetric3 k = {mass.x + dot3(x, from_x), mass.y + dot3(y, from_y), mass.z + dot3(z, from_z),
                   dot3(x, from_y),          dot3(x, from_z),          dot3(y, from_z)};
-  return k;
+  return scaled_tensor(k, s.sharing);
 }
 
 SHARED symmetric3 add_symmetric(symmetric3 a, symmetric3 b)

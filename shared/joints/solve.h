@@ -18,27 +18,32 @@
 #include "shared/joints/block.h"
 #include "shared/joints/frames.h"
 
-SHARED vec3 no_longer_than(vec3 v, real limit)
+/* What a pass with bias wants of rows: the velocity at which they close, and how much of their impulse leaks away. */
+typedef struct {
+  vec3 closing;
+  real leak;
+} soft_rows;
+
+/* Where the way is so long that its closing is limited, less leaks in proportion, because a leak that stayed the same
+ * would let a heavy load draw the joint out for ever. Some leaks always: joints that contradict each other would
+ * otherwise pull with any force. */
+SHARED soft_rows soft_rows_of(GLOBAL const Parameters *parameters, vec3 open)
 {
-  real squared = length_squared(v);
-  mask longer = squared > limit * limit;
-  if (!any_of(longer)) return v;
-  return choose3(longer, scale(v, limit / square_root(choose(longer, squared, (real)R(1.0)))), v);
+  vec3 closing = scale(open, parameters->joint_bias_rate);
+  real squared = length_squared(closing);
+  mask limited = squared > JOINT_CLOSING * JOINT_CLOSING;
+  real share = choose(limited, JOINT_CLOSING / square_root(choose(limited, squared, (real)R(1.0))), (real)R(1.0));
+  soft_rows rows = {scale(closing, share), parameters->joint_impulse_scale * maximum(share, LEAST_LEAK)};
+  return rows;
 }
 
-/* The velocity that a pass takes away: of the rows, and with bias the one that closes the gap. */
-SHARED vec3 unwanted_velocity(GLOBAL const Parameters *parameters, vec3 velocity, vec3 open, uint pass)
+/* The impulse of a block after a pass. k: the response of its rows; velocity, open: of the rows; old: their impulse. */
+SHARED vec3 solve_rows(GLOBAL const Parameters *parameters, symmetric3 k, vec3 velocity, vec3 open, vec3 old, uint pass)
 {
-  if (pass != PASS_BIASED) return velocity;
-  return add(velocity, no_longer_than(scale(open, parameters->joint_bias_rate), JOINT_CLOSING));
-}
-
-/* The accumulated impulse of a block after a pass. solved: the impulse that takes the unwanted velocity away. */
-SHARED vec3 accumulated(GLOBAL const Parameters *parameters, vec3 old, vec3 solved, uint pass)
-{
-  if (pass != PASS_BIASED) return subtract(old, solved);
-  return subtract(subtract(old, scale(solved, parameters->joint_mass_scale)),
-                  scale(old, parameters->joint_impulse_scale));
+  if (pass != PASS_BIASED) return subtract(old, solve_symmetric(k, velocity));
+  soft_rows rows = soft_rows_of(parameters, open);
+  vec3 rigid = solve_symmetric(k, add(velocity, rows.closing));
+  return subtract(subtract(old, scale(rigid, parameters->joint_mass_scale)), scale(old, rows.leak));
 }
 
 /* How far frame b is turned from frame a, in axes of a: about all three axes, or as the lean of the axis x. */
@@ -55,10 +60,11 @@ SHARED joint solve_angular_block(GLOBAL const Parameters *parameters, joint j, j
   uint_lanes locked = j.modes >> (uint)JOINT_ANGULAR_SHIFT;
   mask wanted = locked != 0u;
   if (!any_of(wanted)) return j;
-  symmetric3 k = rows_of_axes(locked, tensor_in_axes(f.axes, add_symmetric(j.a.inertia, j.b.inertia)));
+  symmetric3 of_a = scaled_tensor(j.a.inertia, j.a.sharing), of_b = scaled_tensor(j.b.inertia, j.b.sharing);
+  symmetric3 k = rows_of_axes(locked, tensor_in_axes(f.axes, add_symmetric(of_a, of_b)));
   vec3 velocity = rotate_back(f.axes, subtract(j.b.velocity.angular, j.a.velocity.angular));
-  vec3 unwanted = unwanted_velocity(parameters, velocity, turn_between(f.relative, locked), pass);
-  vec3 total = accumulated(parameters, *impulse, solve_symmetric(k, along_axes(locked, unwanted)), pass);
+  vec3 total = solve_rows(parameters, k, along_axes(locked, velocity),
+                          along_axes(locked, turn_between(f.relative, locked)), *impulse, pass);
   vec3 change = rotate(f.axes, subtract(total, *impulse));
   *impulse = choose3(wanted, total, *impulse);
   joint moved = j;
@@ -76,8 +82,8 @@ SHARED joint solve_directions(GLOBAL const Parameters *parameters, joint j, join
   symmetric3 k =
       rows_of_axes(locked, tensor_in_axes(f.axes, add_symmetric(response_of_side(j.a), response_of_side(j.b))));
   vec3 gap = along_axes(locked, rotate_back(f.axes, j.gap));
-  vec3 unwanted = unwanted_velocity(parameters, rotate_back(f.axes, closing_velocity(j)), gap, pass);
-  vec3 total = accumulated(parameters, *impulse, solve_symmetric(k, along_axes(locked, unwanted)), pass);
+  vec3 velocity = along_axes(locked, rotate_back(f.axes, closing_velocity(j)));
+  vec3 total = solve_rows(parameters, k, velocity, gap, *impulse, pass);
   vec3 change = rotate(f.axes, subtract(total, *impulse));
   *impulse = choose3(wanted, total, *impulse);
   return with_joint_velocities_if(wanted, j, apply_at_frame(j, change));
@@ -89,8 +95,7 @@ SHARED joint solve_point(GLOBAL const Parameters *parameters, joint j, vec3 *imp
   mask wanted = (j.modes & (uint)JOINT_XYZ) == (uint_lanes)(uint)JOINT_XYZ;
   if (!any_of(wanted)) return j;
   symmetric3 k = add_symmetric(response_of_side(j.a), response_of_side(j.b));
-  vec3 unwanted = unwanted_velocity(parameters, closing_velocity(j), j.gap, pass);
-  vec3 total = accumulated(parameters, *impulse, solve_symmetric(k, unwanted), pass);
+  vec3 total = solve_rows(parameters, k, closing_velocity(j), j.gap, *impulse, pass);
   vec3 change = subtract(total, *impulse);
   *impulse = choose3(wanted, total, *impulse);
   return with_joint_velocities_if(wanted, j, apply_at_frame(j, change));

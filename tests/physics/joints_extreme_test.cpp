@@ -80,6 +80,45 @@ TEST_CASE("a body that carries a thousand others on ball joints keeps them", "[p
   CHECK(open_joints(world).max_distance < 0.02);
 }
 
+/* A light body with many others of its mass on ball joints, in free space, each with a velocity of 1 m/s of its own. */
+static Scene star(uint32_t joints, double arm)
+{
+  Scene scene = empty_scene();
+  scene.gravity = {0, 0, 0};
+  Random random(7);
+  add_body(scene, BodyType::dynamic, box_shape(0.3f, 0.2f, 0.4f), {0, 0, 0}).filter_mask = 0;
+  for (uint32_t i = 1; i <= joints; ++i) {
+    const Vector way = direction(random);
+    Body &body = add_body(scene, BodyType::dynamic, box_shape(0.3f, 0.2f, 0.4f), point_of(2 * arm * way));
+    body.filter_mask = 0;
+    body.linear_velocity = vec3_of(direction(random));
+    connect(scene, JointType::ball, 0, i, arm * way, direction(random));
+  }
+  return scene;
+}
+
+TEST_CASE("a star of many bodies on a light one gains no energy and keeps its momentum", "[physics]")
+{
+  const uint32_t joints = GENERATE(6u, 7u, 8u, 9u, 12u, 16u, 32u, 60u, 200u);
+  const bool anchored = GENERATE(false, true);
+  Scene scene = star(joints, GENERATE(0.3, 2.0));
+  if (anchored) connect(scene, JointType::ball, no_body, 0, {0, 0.1, 0});
+  World world(scene, {}, one_thread);
+  const Momentum start = momentum_of(world);
+  const double energy = conserved_quantities(scene, world.precise_bodies()).energy();
+  for (int step = 0; step < 240; ++step) {
+    world.step();
+    /* Joints take energy out of velocities that they do not allow, and add none. */
+    REQUIRE(conserved_quantities(scene, world.precise_bodies()).energy() < energy);
+  }
+  /* Each of n joints takes 2 / n of an error in a pass, so what the turning opens grows as n. */
+  CHECK(open_joints(world).max_distance < 0.0005 * joints);
+  if (anchored) return;
+  const Momentum end = momentum_of(world);
+  CHECK((end.linear - start.linear).norm() < 1e-5 * joints);
+  CHECK((end.angular - start.angular).norm() < 1e-4 * start.angular.norm());
+}
+
 TEST_CASE("joints whose frames begin ten metres apart close, and throw nothing", "[physics]")
 {
   const JointType type = GENERATE(from_range(std::begin(all_joint_types), std::end(all_joint_types)));
@@ -183,16 +222,23 @@ TEST_CASE("a chain with a hundred times the mass at its end holds", "[physics]")
   CHECK(open < 5 * 100 * gravity * Softness(Settings{}).open);
 }
 
-TEST_CASE("a chain of balls with a thousand times the mass at its end stretches, and gains no energy", "[physics]")
+TEST_CASE("a chain with a thousand times the mass at its end stretches by less than its length, and gains no energy",
+          "[physics]")
 {
-  const Scene scene = chain(JointType::ball, 5, 1000, Vector::UnitZ());
-  World world(scene, {}, one_thread);
+  /* Hinges in a row under that load need more than 4 substeps (docs/joints.md). */
+  const auto [type, substeps] =
+      GENERATE(std::pair(JointType::ball, 4u), std::pair(JointType::fixed, 4u), std::pair(JointType::hinge, 16u));
+  const Scene scene = chain(type, 5, 1000, Vector::UnitZ());
+  Settings settings;
+  settings.substeps = substeps;
+  World world(scene, settings, one_thread);
   const double start = conserved_quantities(scene, world.precise_bodies()).energy();
   for (int step = 0; step < 600; ++step) {
     world.step();
     REQUIRE(conserved_quantities(scene, world.precise_bodies()).energy() < start + 0.01 * 1000 * gravity * 5);
   }
   CHECK(all_finite(world.bodies()));
+  CHECK(open_joints(world).max_distance < 0.5);
 }
 
 TEST_CASE("steps of a tenth of a second keep a chain together", "[physics]")
