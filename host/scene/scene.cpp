@@ -230,7 +230,7 @@ void validate(const Scene &scene, const std::string &where)
 
 std::vector<std::string> warnings_of(const Scene &scene, const std::string &where)
 {
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings = scene.notes;
   for (size_t i = 0; i < scene.shapes.size(); ++i)
     if (const std::string note = left_out_of(scene.shapes[i]); !note.empty())
       warnings.push_back(fmt::format("{}: shape {}: {}", where, i, note));

@@ -202,7 +202,7 @@ std::vector<Shape> get_shapes(ByteReader &reader)
 
 void put_scene(ByteWriter &writer, const Scene &scene)
 {
-  const auto &[name, gravity, shapes, materials, bodies, joints] = scene;
+  const auto &[name, gravity, shapes, materials, bodies, joints, notes] = scene;
   writer.put(name);
   writer.put(gravity);
   put_shapes(writer, shapes);
@@ -214,7 +214,7 @@ void put_scene(ByteWriter &writer, const Scene &scene)
 Scene get_scene(ByteReader &reader)
 {
   Scene scene;
-  auto &[name, gravity, shapes, materials, bodies, joints] = scene;
+  auto &[name, gravity, shapes, materials, bodies, joints, notes] = scene;
   reader.get(name);
   reader.get(gravity);
   shapes = get_shapes(reader);

@@ -80,6 +80,7 @@ struct Scene {
   std::vector<Material> materials{Material{}}; /* at least one */
   std::vector<Body> bodies;
   std::vector<Joint> joints;
+  std::vector<std::string> notes; /* of the loader, a line each: what of its file the scene has in another way */
 };
 
 /* Throws InputError that names the first body, shape, material or joint that cannot be simulated: non-finite or
@@ -95,7 +96,7 @@ TANDEM_API void validate(const Material &material, size_t index, const std::stri
 TANDEM_API void validate(const Scene &scene, const Joint &joint, size_t index, const std::string &where);
 
 /* One line for each body that can be simulated, but probably not as intended: a moving mesh that is not closed has only
- * an estimated volume. */
+ * an estimated volume. Scene::notes come first. */
 TANDEM_API std::vector<std::string> warnings_of(const Scene &scene, const std::string &where);
 
 /* Principal moments of inertia, in kg m^2, of a solid shape of uniform density about its centre of mass, in the order

@@ -156,6 +156,13 @@ void GltfBodies::place_ghost(const BodyNodes &nodes, Body &body)
   set_frame(rigid_place(document_, nodes.body.node, nodes.body.world), body);
 }
 
+void GltfBodies::note_that_it_stands(const BodyNodes &nodes)
+{
+  scene_.notes.push_back(fmt::format("{}: moved by {} of the file, which is not played; it is a kinematic body that "
+                                     "stands still",
+                                     document_.place(nodes.body.node), nodes.moved_by));
+}
+
 void GltfBodies::add(const BodyNodes &nodes)
 {
   const int node = nodes.body.node;
@@ -167,7 +174,12 @@ void GltfBodies::add(const BodyNodes &nodes)
   if (nodes.colliders.empty()) place_ghost(nodes, body);
   else if (nodes.colliders.size() == 1) place_alone(nodes, body);
   else place_together(nodes, body);
-  if (nodes.moves) read_gltf_motion(document_.physics_of(node)->member("motion"), nodes.body.world, scene_, body);
+  const GltfMover mover = nodes.moved_by ? GltfMover::file : GltfMover::physics;
+  if (nodes.moves)
+    read_gltf_motion(document_.physics_of(node)->member("motion"), nodes.body.world, mover, scene_, body);
+  else if (nodes.moved_by) body.type = BodyType::kinematic;
+  if (nodes.moved_by) note_that_it_stands(nodes);
+  if (nodes.moves || !nodes.trigger) by_node_.emplace(node, uint32_t(scene_.bodies.size()));
   scene_.bodies.push_back(body);
 }
 

@@ -26,6 +26,8 @@ struct BodyNodes {
   PlacedNode body; /* the one with the motion, or the only collider or trigger, or the one that lists triggers */
   bool moves;
   bool trigger = false; /* then `colliders` are triggers */
+  /* What moves the node in the place of physics, "an animation" or "a skin"; the body then stands, kinematic. */
+  const char *moved_by = nullptr;
   std::vector<PlacedNode> colliders = {};
   std::vector<PlacedNode> carried = {}; /* triggers below the motion */
 };
@@ -36,6 +38,8 @@ public:
   GltfBodies(const GltfBodies &) = delete;
   void add(const BodyNodes &nodes);
   Scene take() { return std::move(scene_); }
+  /* The number of the body of each node that has one; that of a fixed trigger does not count. */
+  const std::map<int, uint32_t> &by_node() const { return by_node_; }
 
 private:
   /* The contents of a collider, and its pose in the world. */
@@ -52,12 +56,14 @@ private:
   void place_alone(const BodyNodes &nodes, Body &body);
   void place_together(const BodyNodes &nodes, Body &body);
   void place_ghost(const BodyNodes &nodes, Body &body);
+  void note_that_it_stands(const BodyNodes &nodes);
   uint32_t add_shape(const Shape &shape);
 
   const GltfDocument &document_;
   Scene scene_;
   GltfShapes shapes_;
   std::vector<GltfFilter> filters_;
+  std::map<int, uint32_t> by_node_;
   std::map<std::string, uint32_t> known_shapes_;
 };
 

@@ -173,17 +173,17 @@ const std::string &GltfBuffers::buffer(size_t index, const JsonValue &view, cons
   return buffers_.emplace(index, read_buffer(gltf_item(document_, "buffers", index, where), index, view)).first->second;
 }
 
-GltfElements GltfBuffers::elements_of(uint32_t index, const JsonValue &asks)
+GltfElements GltfBuffers::elements_of(uint32_t index, const JsonValue &asks, const char *what)
 {
   const size_t accessors = count_of(document_, "accessors");
   if (index >= accessors)
-    asks.fail(fmt::format("accessor {} of the mesh does not exist; the file has {}", index, accessors));
+    asks.fail(fmt::format("accessor {} of the {} does not exist; the file has {}", index, what, accessors));
   const std::string where = asks.place();
   const JsonValue json = gltf_item(document_, "accessors", index, where);
   GltfElements elements{read_accessor(json)};
   const tinygltf::Accessor &accessor = elements.accessor;
-  if (accessor.sparse.isSparse) asks.fail("a mesh of sparse accessors is not supported yet");
-  if (!json.find("bufferView")) asks.fail(fmt::format("accessor {} of the mesh names no buffer view", index));
+  if (accessor.sparse.isSparse) asks.fail(fmt::format("a {} of sparse accessors is not supported yet", what));
+  if (!json.find("bufferView")) asks.fail(fmt::format("accessor {} of the {} names no buffer view", index, what));
   const auto view_index =
       size_t(gltf_index(json.member("bufferView"), "buffer view", count_of(document_, "bufferViews")));
   const JsonValue view_json = gltf_item(document_, "bufferViews", view_index, where);
@@ -197,7 +197,7 @@ GltfElements GltfBuffers::elements_of(uint32_t index, const JsonValue &asks)
       view_inside && accessor.byteOffset <= view.byteLength ? view.byteLength - accessor.byteOffset : 0;
   if (stride < element || element > remaining || accessor.count == 0 ||
       accessor.count - 1 > (remaining - element) / stride)
-    asks.fail(fmt::format("accessor {} of the mesh, {} elements, lies outside its buffer", index, accessor.count));
+    asks.fail(fmt::format("accessor {} of the {}, {} elements, lies outside its buffer", index, what, accessor.count));
   elements.bytes = bytes.data() + view.byteOffset + accessor.byteOffset;
   elements.count = accessor.count;
   elements.stride = stride;

@@ -1,4 +1,4 @@
-/* buffers.h - the numbers of glTF accessors. Buffers are read only when a collider needs them, so that those which are
+/* buffers.h - the numbers of glTF accessors. Buffers are read only when a body needs them, so that those which are
  * only rendered may be missing. This is not a public header. */
 #pragma once
 
@@ -23,8 +23,8 @@ public:
   explicit GltfBuffers(const GltfDocument &document) : document_(document) {}
   GltfBuffers(const GltfBuffers &) = delete;
 
-  /* Error messages begin with `asks`, a geometry of a collider. */
-  GltfElements elements_of(uint32_t accessor, const JsonValue &asks);
+  /* Error messages begin with `asks`, such as a geometry of a collider; `what` is what the numbers are of. */
+  GltfElements elements_of(uint32_t accessor, const JsonValue &asks, const char *what = "mesh");
 
 private:
   const std::string &buffer(size_t index, const JsonValue &view, const JsonValue &asks);

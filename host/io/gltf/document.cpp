@@ -1,4 +1,4 @@
-/* document.cpp - reads files, nodes, scenes and animations; see document.h. It follows the glTF 2.0 specification,
+/* document.cpp - reads files, nodes and scenes; see document.h. It follows the glTF 2.0 specification,
  * chapters 3.5 (nodes) and 4 (binary files). */
 #include "host/io/gltf/document.h"
 
@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "host/base/printable.h"
+#include "host/io/gltf/animation.h"
 #include "host/io/gltf/extensions.h"
 
 namespace tandem {
@@ -179,36 +180,6 @@ void read_scenes(GltfDocument &document)
   }
 }
 
-/* KHR_animation_pointer names its target by a path such as /nodes/3/translation. */
-void read_pointer(const JsonValue &pointer, GltfDocument &document)
-{
-  const std::string path = pointer.member("pointer").text(), nodes = "/nodes/";
-  if (path.find(bodies_extension) != std::string::npos || path.find(shapes_extension) != std::string::npos)
-    pointer.fail(fmt::format("an animation of {} is not supported yet", path));
-  if (!path.starts_with(nodes)) return;
-  const std::string property = path.substr(std::min(path.find('/', nodes.size()), path.size()));
-  if (property != "/translation" && property != "/rotation" && property != "/scale" && property != "/matrix") return;
-  const std::string digits = path.substr(nodes.size(), path.find('/', nodes.size()) - nodes.size());
-  uint32_t index = 0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), index);
-  if (error != std::errc{} || end != digits.data() + digits.size() || index >= document.nodes.size())
-    pointer.fail(fmt::format("node {} does not exist; the file has {}", digits.substr(0, 40), document.nodes.size()));
-  document.animated.insert(int(index));
-}
-
-/* Records which nodes are animated, but not how. */
-void read_animation(const JsonValue &animation, GltfDocument &document)
-{
-  const JsonValue channels = animation.member("channels");
-  for (size_t i = 0; i < channels.array_size(); ++i) {
-    const JsonValue target = channels.element(i).member("target");
-    if (const auto pointer = gltf_extension_of(target, "KHR_animation_pointer")) read_pointer(*pointer, document);
-    const std::optional<JsonValue> node = target.find("node");
-    if (node && target.member("path").text() != "weights")
-      document.animated.insert(gltf_index(*node, "node", document.nodes.size()));
-  }
-}
-
 } // namespace
 
 std::string GltfDocument::label(int index) const
@@ -275,8 +246,7 @@ GltfDocument read_gltf_document(const std::string &path, OutsideFiles outside)
   check_required_extensions(document.root());
   read_nodes(document);
   read_scenes(document);
-  const std::optional<JsonValue> animations = document.root().find("animations");
-  for (size_t i = 0; animations && i < animations->array_size(); ++i) read_animation(animations->element(i), document);
+  read_gltf_animations(document);
   return document;
 }
 

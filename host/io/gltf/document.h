@@ -6,8 +6,8 @@
  */
 #pragma once
 
+#include <array>
 #include <map>
-#include <set>
 
 #include "host/io/input_file.h"
 #include "host/io/json/reader.h"
@@ -26,14 +26,21 @@ struct GltfNode {
   const nlohmann::json *physics = nullptr; /* the node's bodies_extension */
 };
 
+/* Where the keys of an animated node are: an animation, and a sampler of it, for each property that is animated. */
+struct GltfKeys {
+  static constexpr size_t count = 3;                    /* translation, rotation, scale */
+  static size_t number_of(const std::string &property); /* `count` for any other */
+  std::array<std::optional<std::pair<size_t, size_t>>, count> samplers;
+};
+
 struct GltfDocument {
   std::string where; /* the file */
   OutsideFiles outside;
   JsonDocument file;
   std::string binary; /* the second chunk of a .glb */
   std::vector<GltfNode> nodes;
-  std::vector<int> roots; /* of the scene that is simulated */
-  std::set<int> animated;
+  std::vector<int> roots;           /* of the scene that is simulated */
+  std::map<int, GltfKeys> animated; /* by node */
 
   const GltfNode &node(int index) const { return nodes[size_t(index)]; }
   std::string label(int node) const; /* node 'Cup' */

@@ -117,7 +117,7 @@ bool is_infinite(const JsonValue &motion, const Body &body)
 
 } // namespace
 
-void read_gltf_motion(const JsonValue &motion, const Transform &world, const Scene &scene, Body &body)
+void read_gltf_motion(const JsonValue &motion, const Transform &world, GltfMover mover, const Scene &scene, Body &body)
 {
   static constexpr const char *keys[] = {
       "isKinematic",     "mass",          "centerOfMass", "inertiaDiagonal", "inertiaOrientation", "linearVelocity",
@@ -125,11 +125,12 @@ void read_gltf_motion(const JsonValue &motion, const Transform &world, const Sce
   motion.only_keys(keys);
   const Quat node = body.orientation;
   if (auto factor = motion.find("gravityFactor")) body.gravity_factor = factor->number();
-  read_velocities(motion, world, body);
+  if (mover == GltfMover::physics) read_velocities(motion, world, body);
   const std::optional<Double3> center = read_center(motion, world, is_plane(scene, body));
   std::optional<Rotation> axes = read_axes(motion, world);
-  if (!read_flag(motion, "isKinematic")) read_inertia(motion, body);
-  const bool kinematic = read_flag(motion, "isKinematic") || is_infinite(motion, body);
+  const bool given = read_flag(motion, "isKinematic") || mover == GltfMover::file;
+  if (!given) read_inertia(motion, body);
+  const bool kinematic = given || is_infinite(motion, body);
   const bool own_moments = !kinematic && body.inertia != Vec3{0, 0, 0};
   if (own_moments) axes = product(Rotation{node[0], node[1], node[2], node[3]}, axes.value_or(Rotation{0, 0, 0, 1}));
   else axes.reset();

@@ -10,8 +10,11 @@
 
 namespace tandem {
 
+/* Who moves a body: physics, as the motion says, or something else of the file; then it is kinematic and stands. */
+enum class GltfMover { physics, file };
+
 /* `world` is the transform of the node that has the motion. `body` must have its shape, and its frame must be at that
  * node. */
-void read_gltf_motion(const JsonValue &motion, const Transform &world, const Scene &scene, Body &body);
+void read_gltf_motion(const JsonValue &motion, const Transform &world, GltfMover mover, const Scene &scene, Body &body);
 
 } // namespace tandem

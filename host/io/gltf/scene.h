@@ -1,8 +1,8 @@
 /* scene.h - scenes from glTF 2.0 files with KHR_implicit_shapes and KHR_physics_rigid_bodies.
  *
  * The reader loads what the pipeline supports: all shapes, convex hulls, meshes, several colliders a body; motions,
- * materials, collision filters. What is not supported is refused by name, together with the node that uses it; nothing
- * is omitted silently. docs/scene-format.md lists both.
+ * materials, collision filters, joints. What is not supported is refused by name, together with the node that uses it;
+ * nothing is omitted silently. docs/scene-format.md lists both.
  */
 #pragma once
 

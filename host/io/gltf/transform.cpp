@@ -104,7 +104,7 @@ bool is_scaled_to_nothing(const Transform &t)
   return std::all_of(&t.column[0][0], &t.column[0][0] + 9, [](double x) { return x == 0; });
 }
 
-RigidPlace rigid_place(const GltfDocument &document, int index, const Transform &world)
+RigidPlace rigid_place(const GltfDocument &document, int index, const Transform &world, const char *what)
 {
   Transform rotation = world;
   RigidPlace place;
@@ -119,7 +119,7 @@ RigidPlace rigid_place(const GltfDocument &document, int index, const Transform 
   }
   for (int j = 0; j < 3; ++j)
     if (std::abs(dot(rotation.column[j], rotation.column[(j + 1) % 3])) > 1e-4)
-      document.refuse(index, "a sheared collider (a rotation below an uneven scale) is not supported yet");
+      document.refuse(index, fmt::format("a sheared {} (a rotation below an uneven scale) is not supported yet", what));
   if (is_mirrored(rotation)) {
     for (double &x : rotation.column[0]) x = -x;
     place.scale[0] = -place.scale[0];

@@ -33,7 +33,7 @@ struct RigidPlace {
 };
 
 bool is_scaled_to_nothing(const Transform &t);
-/* Throws InputError for shear, and for a scale of zero. */
-RigidPlace rigid_place(const GltfDocument &document, int node, const Transform &world);
+/* Throws InputError for shear, and for a scale of zero; `what` is what stands there. */
+RigidPlace rigid_place(const GltfDocument &document, int node, const Transform &world, const char *what = "collider");
 
 } // namespace tandem
