@@ -54,7 +54,8 @@ World::Implementation::Implementation(Beginning beginning, const Placement &plac
       automatic(placement.automatic ? std::make_unique<AutomaticPlacement>(placement) : nullptr),
       backends(shared ? PlacedBackends(*shared, features_run())
                       : PlacedBackends(AutomaticPlacement::first_of(placement), features_run())),
-      buffers(memory, backends), joint_graph(joint_graph_of(scene)), slots(std::move(beginning.slots)),
+      buffers(memory, backends), joint_graph(joint_graph_of(scene, std::max(special.worlds, 1u))),
+      slots(std::move(beginning.slots)),
       launcher(memory, [this](Kernel kernel) -> Backend & { return backends.of(kernel); }), parts(memory)
 {
   check_built(scene_features, scene, settings, scene.name);
