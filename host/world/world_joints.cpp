@@ -31,11 +31,6 @@ JointPlaces WorldJoints::of(uint32_t world) const
           static_cast<uint32_t>(all.size())};
 }
 
-bool follows_joints(Buffer buffer)
-{
-  return row_of(buffer).capacity == Capacity::JOINTS || row_of(buffer).capacity == Capacity::JOINT_AXES;
-}
-
 std::vector<size_t> items_of_joints(Buffer buffer, const JointPlaces &joints)
 {
   const uint32_t planes = row_of(buffer).capacity == Capacity::JOINTS ? 1 : joints.axes;

@@ -28,9 +28,6 @@ private:
   std::vector<uint32_t> axes_;           /* by world */
 };
 
-/* Whether a buffer has rows of joints. */
-bool follows_joints(Buffer buffer);
-
 /* The rows that a world has alone in such a buffer, by their numbers in that of the batch. */
 std::vector<size_t> items_of_joints(Buffer buffer, const JointPlaces &joints);
 

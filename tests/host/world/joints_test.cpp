@@ -20,7 +20,7 @@ Scene two_joined_and_one_free()
 
 } // namespace
 
-TEST_CASE("solvers without joints and sleeping refuse joints by name")
+TEST_CASE("solvers without joints refuse them by name")
 {
   const Scene scene = two_joined_and_one_free();
   for (const Solver solver : choices<Solver>()) {
@@ -29,9 +29,6 @@ TEST_CASE("solvers without joints and sleeping refuse joints by name")
     CHECK_THROWS_WITH(World(scene, settings_for(solver), {"serial", {}}),
                       ContainsSubstring(std::string("the solver ") + name_of(solver) + " has no joints"));
   }
-  Settings sleeping;
-  sleeping.sleeping = true;
-  CHECK_THROWS_WITH(World(scene, sleeping, {"serial", {}}), ContainsSubstring("bodies with joints cannot sleep"));
 }
 
 TEST_CASE("joined bodies are not destroyed and keep their types, and others may")
