@@ -11,8 +11,8 @@
  *
  * A large body that wakes is one of the small ones from then on: the broadphase finds the same pairs, and takes longer.
  *
- * An island wakes when a body that is awake touches it, when a call changes one of its bodies or a body that is joined to
- * one, or when a body beside it is destroyed or set elsewhere. Its joints sleep and wake with it
+ * An island wakes when a body that is awake touches it, when a call changes one of its bodies or a body that is joined
+ * to one, or when a body beside it is destroyed or set elsewhere. Its joints sleep and wake with it
  * (host/world/joint_order.h).
  */
 #include <algorithm>
@@ -406,8 +406,8 @@ void World::Implementation::wake_all()
   wake(islands);
 }
 
-/* The islands of these bodies and of what is joined to them, and of those beside them if asked. A body that cannot sleep
- * may have a joint with one that does. */
+/* The islands of these bodies and of what is joined to them, and of those beside them if asked. A body that cannot
+ * sleep may have a joint with one that does. */
 void World::Implementation::wake_bodies(std::span<const uint32_t> of_slots, bool beside)
 {
   if (sleepers.empty()) return;

@@ -4,8 +4,8 @@
  *     label 2  label 2  label 2       -        label 3  label 3
  *
  * The label of an island is the lowest index of its bodies. Contacts and joints join dynamic bodies alone, because
- * whatever stands on one ground would otherwise be one island. Labels come from hooking and pointer jumping (Shiloach and Vishkin, "An
- * O(log n) parallel connectivity algorithm", 1982), in rounds of two kernels:
+ * whatever stands on one ground would otherwise be one island. Labels come from hooking and pointer jumping (Shiloach
+ * and Vishkin, "An O(log n) parallel connectivity algorithm", 1982), in rounds of two kernels:
  *
  *   hook_islands   each contact sets the next label of the higher of its two labels to the lower one, by a minimum;
  *                  hook_joints does so for each joint
