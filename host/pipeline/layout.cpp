@@ -57,6 +57,7 @@ size_t items_of(Capacity capacity, const Sizes &sizes)
   case Capacity::HULL_LINKS: return sizes.hulls.links;
   case Capacity::BODIES: return sizes.bodies;
   case Capacity::BODIES_PLUS_ONE: return size_t{sizes.bodies} + 1;
+  case Capacity::MOVED_ROWS: return std::max(sizes.bodies, sizes.joints);
   case Capacity::SLEEPERS: return size_t{sizes.bodies} + MOST_UNSORTED_SLEEPERS;
   case Capacity::PAIRS: return sizes.pairs;
   case Capacity::EVENTS: return 2 * size_t{sizes.pairs}; /* at most the pairs of this step and of the last */

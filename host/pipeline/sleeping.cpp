@@ -29,6 +29,7 @@ void find_islands(StepLaunches &step)
   step.run(Kernel::begin_islands);
   for (uint32_t round = 0; round < rounds; ++round) {
     step.run(Kernel::hook_islands, {round});
+    if (step.has(FEATURE_JOINTS)) step.run(Kernel::hook_joints, {round});
     step.run(Kernel::jump_islands, {round});
   }
   step.run(Kernel::finish_islands, {rounds});
@@ -69,10 +70,12 @@ void find_near_sleepers(StepLaunches &step)
 void find_drowsy_islands(StepLaunches &step)
 {
   step.run(Kernel::count_rest);
+  if (step.has(FEATURE_JOINT_AXES)) step.run(Kernel::disturb_driven);
   if (!step.plan().drowsy) return;
   find_islands(step);
   step.run(Kernel::keep_islands_awake);
   step.run(Kernel::keep_carried_awake);
+  if (step.has(FEATURE_JOINTS)) step.run(Kernel::keep_joined_awake);
   if (step.has(FEATURE_TRIGGER)) step.run(Kernel::keep_triggers_awake);
   step.run(Kernel::choose_sleepers);
 }
@@ -84,6 +87,17 @@ void move_body_rows(Launcher &launcher, const BodyRows &rows, uint32_t length, u
   for (uint32_t first = 0; first < row.per_item; first += moved_elements) {
     const uint32_t count = std::min(moved_elements, row.per_item - first);
     const Values part{row.per_item, first, count};
+    launcher.launch({kernels.gather, {rows.from, Buffer::move_from, kernels.moved}, part, COUNT_ZERO, length, most});
+    for (const Buffer to : rows.to)
+      launcher.launch({kernels.scatter, {kernels.moved, Buffer::move_to, to}, part, COUNT_ZERO, length, most});
+  }
+}
+
+void move_planes(Launcher &launcher, const BodyRows &rows, const Planes &planes, uint32_t length, uint32_t most)
+{
+  const RowKernels kernels = kernels_of(row_of(rows.from).element);
+  for (uint32_t plane = 0; plane < planes.count; ++plane) {
+    const Values part{1, plane * planes.stride, 1};
     launcher.launch({kernels.gather, {rows.from, Buffer::move_from, kernels.moved}, part, COUNT_ZERO, length, most});
     for (const Buffer to : rows.to)
       launcher.launch({kernels.scatter, {kernels.moved, Buffer::move_to, to}, part, COUNT_ZERO, length, most});

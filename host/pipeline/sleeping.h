@@ -20,13 +20,19 @@ void find_near_sleepers(StepLaunches &step);
 /* Counts for how long bodies have rested, and chooses those that fall asleep. */
 void find_drowsy_islands(StepLaunches &step);
 
-/* A buffer with a row for each body, and where its rows are to be written. */
+/* A buffer with a row for each body or joint, and where its rows are to be written. */
 struct BodyRows {
   Buffer from;
   std::vector<Buffer> to;
 };
 /* Moves the rows listed in move_from to the places in move_to; counts[length] of them, at most `most`. */
 void move_body_rows(Launcher &launcher, const BodyRows &rows, uint32_t length, uint32_t most);
+
+/* The same of a buffer of planes, each of so many elements. */
+struct Planes {
+  uint32_t count, stride;
+};
+void move_planes(Launcher &launcher, const BodyRows &rows, const Planes &planes, uint32_t length, uint32_t most);
 
 /* Computes the new places of the bodies, of which some fall asleep, and of the cached pairs. */
 void place_awake_first(StepLaunches &step, uint32_t cached_pairs);

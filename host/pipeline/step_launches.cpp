@@ -56,14 +56,19 @@ void StepLaunches::for_each_color(Kernel kernel, const Values &values)
   for (uint32_t color = 0; color < std::min(plan_.colors, COLOR_LIMIT); ++color) launch_color(kernel, color, values);
 }
 
-void StepLaunches::for_each_color_with_joints(Kernel joints, Kernel overflow_joints, Kernel constraints,
-                                              const Values &values)
+void StepLaunches::for_each_color_with_joints(Kernel joints, Kernel constraints, const Values &values)
 {
   for (uint32_t color = 0; color < std::min(std::max(plan_.colors, plan_.joint_colors), COLOR_LIMIT); ++color) {
     if (color < plan_.joint_colors) run_range(joints, JOINT_COLOR_START + color, JOINT_COLOR_START + color + 1, values);
     if (color < plan_.colors) launch_color(constraints, color, values);
   }
-  if (plan_.joint_colors > COLOR_LIMIT) run(overflow_joints, values);
+}
+
+void StepLaunches::run_overflow_joints(Kernel kernel, const Values &values)
+{
+  if (plan_.joint_colors <= COLOR_LIMIT) return;
+  if (has(FEATURE_WORLDS)) run_range(kernel, JOINT_COLOR_START + COLOR_OVERFLOW, COUNT_JOINTS, values);
+  else run(kernel, values);
 }
 
 void StepLaunches::for_each_color(Kernel kernel, Kernel overflow, const Values &values)

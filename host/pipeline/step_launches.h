@@ -35,9 +35,11 @@ public:
   /* Launches a kernel once for each colour of constraints; constraints without a colour are left to
    * host/pipeline/solvers/mass_split.h. */
   void for_each_color(Kernel kernel, const Values &values = {});
-  /* Launches a kernel of joints and one of constraints once for each colour, joints first, and behind all colours the
-   * kernel of the overflow joints. Both take the same values. A scene without joints has those of constraints alone. */
-  void for_each_color_with_joints(Kernel joints, Kernel overflow_joints, Kernel constraints, const Values &values = {});
+  /* Launches a kernel of joints and one of constraints once for each colour, joints first. Both take the same values. A
+   * scene without joints has those of constraints alone. */
+  void for_each_color_with_joints(Kernel joints, Kernel constraints, const Values &values = {});
+  /* Launches a kernel over the overflow joints, if there are some: in a batch, an item starts at each of them. */
+  void run_overflow_joints(Kernel kernel, const Values &values = {});
   /* From now on, the colours of a batch of worlds are the constraints of those worlds that have overflow constraints,
    * or all again. */
   void limit_to_worlds_with_overflow(bool limited) { limited_ = limited; }

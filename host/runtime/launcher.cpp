@@ -30,12 +30,15 @@ void PlacedLauncher::note_written(Buffer buffer)
     written_.push_back(buffer);
 }
 
-/* Kernels write the rows of bodies that are awake; where others sleep, their rows are part of the contents. */
+/* Kernels write the rows of bodies and joints that are awake; where others sleep, their rows are part of the
+ * contents. */
 Access PlacedLauncher::access_of(Buffer buffer, Access access) const
 {
   if (access != Access::out || !keeps_sleepers_) return access;
   const BufferRow &row = row_of(buffer);
-  return row.lifetime == Lifetime::STATE && row.capacity == Capacity::BODIES ? Access::inout : access;
+  const bool of_bodies = row.lifetime == Lifetime::STATE && row.capacity == Capacity::BODIES,
+             of_joints = row.lifetime == Lifetime::CACHE && has_rows_of_joints(row);
+  return of_bodies || of_joints ? Access::inout : access;
 }
 
 void PlacedLauncher::bind(const Launch &launch, Storage &storage, std::vector<BoundArgument> &bound)

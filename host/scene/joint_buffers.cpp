@@ -47,7 +47,7 @@ float4 float4_of(const Quat &orientation)
 /* Kernels compute with a number in place of an infinite limit. */
 float finite(float x) { return std::clamp(x, -1e30f, 1e30f); }
 
-/* The planes of the axes of joints, in the order of the graph. */
+/* The planes of the axes of joints, by their places. */
 class AxisRows {
 public:
   AxisRows(size_t joints, uint32_t axes)
@@ -75,11 +75,11 @@ private:
   std::vector<float4> rows_;
 };
 
-void stage_axes(StagedUploads &uploads, const Scene &scene, const JointGraph &graph)
+void stage_axes(StagedUploads &uploads, const Scene &scene, std::span<const uint32_t> joints, uint32_t axes)
 {
-  AxisRows rows(graph.order.size(), graph.axes);
-  for (size_t i = 0; i < graph.order.size(); ++i) {
-    const std::vector<UsedAxis> used = axes_used_by(scene.joints[graph.order[i]]);
+  AxisRows rows(joints.size(), axes);
+  for (size_t i = 0; i < joints.size(); ++i) {
+    const std::vector<UsedAxis> used = axes_used_by(scene.joints[joints[i]]);
     for (size_t k = 0; k < used.size(); ++k) rows.set(i, k, used[k]);
   }
   rows.stage(uploads);
@@ -117,16 +117,13 @@ private:
   std::vector<uint32_t> joints_;
 };
 
-/* The rows of joints in the order of the graph. */
+/* The rows of joints, by their places. */
 struct JointRows {
-  std::vector<uint32_t> a, b, modes;
+  std::vector<uint32_t> modes;
   std::vector<float4> arm_a, arm_b, frame_a, frame_b, world_frame;
 
-  void add(const Joint &joint, std::span<const uint32_t> index_of_body, const Sharing &sharing)
+  void add(const Joint &joint, const Sharing &sharing)
   {
-    const auto index = [&](uint32_t body) { return body == no_body ? INDEX_NONE : index_of_body[body]; };
-    a.push_back(index(joint.body_a));
-    b.push_back(index(joint.body_b));
     modes.push_back(modes_of(joint));
     arm_a.push_back(arm_of(joint.position_a, joint.body_a, sharing.of(joint, joint.body_a)));
     arm_b.push_back(arm_of(joint.position_b, joint.body_b, sharing.of(joint, joint.body_b)));
@@ -137,8 +134,6 @@ struct JointRows {
   }
   void stage(StagedUploads &uploads)
   {
-    uploads.add(Buffer::joint_a, std::move(a));
-    uploads.add(Buffer::joint_b, std::move(b));
     uploads.add(Buffer::joint_modes, std::move(modes));
     uploads.add(Buffer::joint_arm_a, std::move(arm_a));
     uploads.add(Buffer::joint_arm_b, std::move(arm_b));
@@ -165,20 +160,22 @@ void stage_colors(StagedUploads &uploads, const JointGraph &graph, std::span<con
   uploads.add(Buffer::body_joint_colors, std::move(colors));
 }
 
-void stage_joined_pairs(StagedUploads &uploads, const Scene &scene, const JointGraph &graph,
-                        std::span<const uint32_t> index_of_body, uint32_t first_pair)
+/* The table of broadphase/joined_pairs.h, by the indices of bodies. Pairs of which one sleeps are never looked for. */
+std::vector<uint32_t> joined_pair_table(const Scene &scene, std::span<const uint32_t> joints,
+                                        std::span<const uint32_t> index_of_body, uint32_t entries)
 {
-  const uint32_t entries = graph.joined_pairs;
   std::vector<uint32_t> table(2 * size_t{entries}, INDEX_NONE);
-  for (const auto &[one, other] : joined_pairs(scene)) {
-    const uint32_t a = std::max(index_of_body[one], index_of_body[other]),
-                   b = std::min(index_of_body[one], index_of_body[other]);
+  for (const uint32_t number : joints) {
+    const Joint &joint = scene.joints[number];
+    if (!parts_bodies(joint)) continue;
+    const auto [b, a] = std::minmax(index_of_body[joint.body_a], index_of_body[joint.body_b]);
     uint32_t k = joined_pair_hash(a, b) & (entries - 1);
-    while (table[2 * size_t{k}] != INDEX_NONE) k = (k + 1) & (entries - 1);
+    const auto is_taken = [&] { return table[2 * size_t{k}] != INDEX_NONE; };
+    while (is_taken() && (table[2 * size_t{k}] != a || table[2 * size_t{k} + 1] != b)) k = (k + 1) & (entries - 1);
     table[2 * size_t{k}] = a;
     table[2 * size_t{k} + 1] = b;
   }
-  if (entries > 0) uploads.add_elements(Buffer::body_filter, std::move(table), first_pair);
+  return table;
 }
 
 } // namespace
@@ -216,17 +213,41 @@ uint32_t joined_pair_entries(const Scene &scene)
   return pairs > 0 ? static_cast<uint32_t>(std::bit_ceil(2 * pairs)) : 0;
 }
 
-void stage_joints(StagedUploads &uploads, const Scene &scene, const JointGraph &graph,
-                  std::span<const uint32_t> index_of_body, size_t room, uint32_t first_pair)
+/* Half of them at least stay empty. A scene without a table has none at any time. */
+uint32_t joined_pair_entries(const Scene &scene, const JointGraph &graph, std::span<const uint32_t> awake)
+{
+  const auto pairs = static_cast<size_t>(
+      std::count_if(awake.begin(), awake.end(), [&](uint32_t joint) { return parts_bodies(scene.joints[joint]); }));
+  return static_cast<uint32_t>(std::min<size_t>(std::bit_ceil(2 * std::max<size_t>(pairs, 1)), graph.joined_pairs));
+}
+
+void stage_joints(StagedUploads &uploads, const Scene &scene, const JointGraph &graph, std::span<const uint32_t> joints,
+                  std::span<const uint32_t> index_of_body, size_t room)
 {
   if (scene.joints.empty()) return;
   JointRows rows;
   const Sharing sharing(scene);
-  for (const uint32_t joint : graph.order) rows.add(scene.joints[joint], index_of_body, sharing);
+  for (const uint32_t joint : joints) rows.add(scene.joints[joint], sharing);
   rows.stage(uploads);
-  stage_axes(uploads, scene, graph);
+  stage_axes(uploads, scene, joints, graph.axes);
   stage_colors(uploads, graph, index_of_body, room);
-  stage_joined_pairs(uploads, scene, graph, index_of_body, first_pair);
+}
+
+void stage_bodies_of_joints(StagedUploads &uploads, const Scene &scene, const JointGraph &graph,
+                            std::span<const uint32_t> awake, std::span<const uint32_t> index_of_body,
+                            uint32_t first_pair)
+{
+  const auto index = [&](uint32_t body) { return body == no_body ? INDEX_NONE : index_of_body[body]; };
+  std::vector<uint32_t> a, b;
+  for (const uint32_t joint : awake) {
+    a.push_back(index(scene.joints[joint].body_a));
+    b.push_back(index(scene.joints[joint].body_b));
+  }
+  uploads.add(Buffer::joint_a, std::move(a));
+  uploads.add(Buffer::joint_b, std::move(b));
+  const uint32_t entries = joined_pair_entries(scene, graph, awake);
+  if (entries > 0)
+    uploads.add_elements(Buffer::body_filter, joined_pair_table(scene, awake, index_of_body, entries), first_pair);
 }
 
 } // namespace tandem

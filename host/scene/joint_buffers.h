@@ -25,9 +25,17 @@ std::vector<bool> joined_bodies(const Scene &scene);
 /* The entries of JointGraph::joined_pairs. */
 uint32_t joined_pair_entries(const Scene &scene);
 
-/* index_of_body: of each body of the scene in the buffers, which have room for so many. first_pair: of body_filter,
- * where the table of joined pairs begins. */
-void stage_joints(StagedUploads &uploads, const Scene &scene, const JointGraph &graph,
-                  std::span<const uint32_t> index_of_body, size_t room, uint32_t first_pair);
+/* How many entries of the table of joined pairs are in use while these joints are awake. */
+uint32_t joined_pair_entries(const Scene &scene, const JointGraph &graph, std::span<const uint32_t> awake);
+
+/* joints: by their places. room: for bodies, in the buffers. */
+void stage_joints(StagedUploads &uploads, const Scene &scene, const JointGraph &graph, std::span<const uint32_t> joints,
+                  std::span<const uint32_t> index_of_body, size_t room);
+
+/* What changes as bodies move in the buffers: the bodies of the joints that are awake, which come first, and the table
+ * of joined pairs. index_of_body: of each body of the scene. first_pair: of body_filter, where the table begins. */
+void stage_bodies_of_joints(StagedUploads &uploads, const Scene &scene, const JointGraph &graph,
+                            std::span<const uint32_t> awake, std::span<const uint32_t> index_of_body,
+                            uint32_t first_pair);
 
 } // namespace tandem

@@ -49,7 +49,7 @@ private:
 
 } // namespace
 
-JointGraph joint_graph_of(const Scene &scene)
+JointGraph joint_graph_of(const Scene &scene, uint32_t worlds)
 {
   JointGraph graph;
   ColorsAtBodies at_bodies(scene);
@@ -65,9 +65,12 @@ JointGraph joint_graph_of(const Scene &scene)
   std::partial_sum(graph.starts.begin(), graph.starts.end(), graph.starts.begin());
   graph.order.resize(colors.size());
   std::iota(graph.order.begin(), graph.order.end(), 0u);
-  std::sort(graph.order.begin(), graph.order.end(), [&](uint32_t a, uint32_t b) {
-    return std::tuple(colors[a], scene.joints[a].type, a) < std::tuple(colors[b], scene.joints[b].type, b);
-  });
+  const size_t bodies_of_world = scene.bodies.size() / worlds;
+  const auto place = [&](uint32_t joint) {
+    const size_t world = colors[joint] == COLOR_OVERFLOW ? some_body_of(scene.joints[joint]) / bodies_of_world : 0;
+    return std::tuple(colors[joint], world, scene.joints[joint].type, joint);
+  };
+  std::sort(graph.order.begin(), graph.order.end(), [&](uint32_t a, uint32_t b) { return place(a) < place(b); });
   graph.body_colors = at_bodies.words();
   return graph;
 }

@@ -6,6 +6,9 @@
  * others, solved in order.
  *
  *   colour 0 | hinge hinge slider | colour 1 | ball hinge | ... | overflow
+ *
+ * The joints of one world of a batch have the colours and the order that they have alone. Overflow joints stand world
+ * after world (shared/joints/by_world.h).
  */
 #pragma once
 
@@ -28,6 +31,10 @@ struct JointGraph {
   uint32_t joined_pairs = 0;
 };
 
-JointGraph joint_graph_of(const Scene &scene);
+/* worlds: of a batch, which have equally many bodies and stand in the scene one after the other. */
+JointGraph joint_graph_of(const Scene &scene, uint32_t worlds = 1);
+
+/* One of the bodies of a joint, of which the world is none. */
+inline uint32_t some_body_of(const Joint &joint) { return joint.body_a == no_body ? joint.body_b : joint.body_a; }
 
 } // namespace tandem

@@ -12,6 +12,7 @@ void World::Implementation::note_batch(Recorder &recorder) const
 {
   recorder.note(Kernel::find_failed_bodies);
   recorder.note(Kernel::reset_worlds);
+  if (!scene.joints.empty()) recorder.note(Kernel::reset_joints);
   if (settings.events) recorder.note(Kernel::reset_touching);
   if (plan.forces) recorder.note(Kernel::reset_forces);
 }

@@ -8,6 +8,11 @@
 
 namespace tandem {
 
+bool has_rows_of_sleepers(Buffer carried)
+{
+  return row_of(carried).capacity == Capacity::BODIES || has_rows_of_joints(row_of(carried));
+}
+
 size_t item_bytes(Buffer buffer) { return row_of(buffer).per_item * size_of(row_of(buffer).element); }
 
 size_t items_in_use(Memory &memory, Buffer buffer, BodyNumbers bodies, uint32_t pairs)

@@ -23,6 +23,9 @@ constexpr bool is_carried(Lifetime lifetime) { return lifetime == Lifetime::STAT
 
 TANDEM_API void turn_carried(Memory &memory, const std::vector<CarriedBuffer> &carried) noexcept;
 
+/* Steps leave the rows of bodies and joints that sleep as they are, on both sides. */
+bool has_rows_of_sleepers(Buffer carried);
+
 /* The bodies of a world, and those of them that do not sleep, which come first. */
 struct BodyNumbers {
   uint32_t all, awake;

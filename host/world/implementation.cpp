@@ -54,7 +54,8 @@ World::Implementation::Implementation(Beginning beginning, const Placement &plac
       automatic(placement.automatic ? std::make_unique<AutomaticPlacement>(placement) : nullptr),
       backends(shared ? PlacedBackends(*shared, features_run())
                       : PlacedBackends(AutomaticPlacement::first_of(placement), features_run())),
-      buffers(memory, backends), joint_graph(joint_graph_of(scene)), slots(std::move(beginning.slots)),
+      buffers(memory, backends), joint_graph(joint_graph_of(scene, std::max(special.worlds, 1u))),
+      joint_order(scene, joint_graph), slots(std::move(beginning.slots)),
       launcher(memory, [this](Kernel kernel) -> Backend & { return backends.of(kernel); }), parts(memory)
 {
   check_built(scene_features, scene, settings, scene.name);
@@ -68,7 +69,7 @@ World::Implementation::Implementation(Beginning beginning, const Placement &plac
   plan.features = special.features;
   plan.bodies = beginning.room;
   scene_entries = entries_of({special.awake, special.unbounded, special.large, bodies() - special.awake});
-  plan.joint_colors = joint_graph.colors;
+  plan.joint_colors = joint_order.colors();
   counted_bodies = special.awake;
   plan.capacity_cells = cells_for(plan.bodies);
   plan.capacity_pairs = plan.capacity_candidates = beginning.pairs;
@@ -136,6 +137,7 @@ void World::Implementation::record_kernels()
   plan.apart = false;
   StepPlan all = plan;
   all.colors = std::max(plan.colors, COLOR_LIMIT);
+  all.joint_colors = joint_graph.colors; /* whoever sleeps */
   all.substeps.starts = all.substeps.automatic;
   all.rounds = BATCH_ROUNDS * COLOR_LIMIT; /* the most rounds after which a batcher launches another kernel */
   all.known[COUNT_PAIRS] = all.known[COUNT_CONSTRAINTS] = most_pairs; /* many pairs, which touch */
@@ -253,7 +255,7 @@ Parameters World::Implementation::parameters_now() const
   parameters.joints = static_cast<uint32_t>(scene.joints.size());
   parameters.joint_axes = joint_graph.axes;
   parameters.joined_pairs_first = first_joined_pair(sizes());
-  parameters.joined_pairs_mask = std::max(joint_graph.joined_pairs, 1u) - 1;
+  parameters.joined_pairs_mask = std::max(joined_pair_entries(scene, joint_graph, joint_order.awake()), 1u) - 1;
   if (!plan.substeps.automatic) return parameters;
   parameters.warm_start_scale = before / now;
   parameters.spin_fall = 0.5f * parameters.gravity_length;
@@ -278,7 +280,7 @@ void World::Implementation::stage_tables(StagedUploads &uploads)
 void World::Implementation::stage_counts(StagedUploads &uploads) const
 {
   for (const auto &[entry, value] : scene_entries) uploads.add_count(static_cast<uint32_t>(entry), value);
-  for (const auto &[entry, value] : joint_entries_of(joint_graph.starts))
+  for (const auto &[entry, value] : joint_entries_of(joint_order.starts()))
     uploads.add_count(static_cast<uint32_t>(entry), value);
   uploads.add_count(CAPACITY_PAIRS, plan.capacity_pairs);
   uploads.add_count(CAPACITY_CELLS, plan.capacity_cells);
@@ -299,8 +301,7 @@ void World::Implementation::guess_counts() noexcept
   known.fill(plan.capacity_pairs);
   known[COUNT_KEPT] = 0;
   for (const auto &[entry, value] : scene_entries) known[entry] = value;
-  std::copy(joint_graph.starts.begin(), joint_graph.starts.end(), known.begin() + JOINT_COLOR_START);
-  known[COUNT_JOINTS] = known[COUNT_COMMIT_JOINTS] = joint_graph.starts.back();
+  plan_joints();
   known[COUNT_COMMIT_BODIES] = special.awake;
   known[COUNT_COMMIT_BODIES_PLUS_ONE] = special.awake + 1;
   known[COUNT_CELLS_PLUS_ONE] = plan.capacity_cells + 1;

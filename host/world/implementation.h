@@ -34,6 +34,7 @@
 #include "host/world/body_slots.h"
 #include "host/world/call_log.h"
 #include "host/world/commands.h"
+#include "host/world/joint_order.h"
 #include "host/world/placed_backends.h"
 #include "host/world/queries.h"
 #include "host/world/shape_slots.h"
@@ -221,6 +222,18 @@ struct World::Implementation {
   void write_properties(std::span<const uint32_t> slots);
   void forget_colors(std::span<const uint32_t> freed);
 
+  /* --- joints that sleep with their bodies: sleeping_joints.cpp -------------------------------------------------- */
+  std::vector<BodyRows> joint_rows(const std::vector<bool> &touched) const;
+  void launch_moves_of_joints(Launcher &to, const BodyRows &rows, uint32_t most) const;
+  void move_joint_rows(const JointOrder::Moves &moves, bool carried);
+  void tell_joints();
+  void plan_joints() noexcept;
+  bool is_joint_asleep(uint32_t joint) const;
+  void put_joints_to_sleep();
+  void wake_joints(std::span<const uint32_t> of_slots);
+  std::set<uint32_t> islands_joined_to(uint32_t slot) const;
+  void take_joint_order(std::vector<uint32_t> joints);
+
   /* --- joints: joints.cpp ---------------------------------------------------------------------------------------- */
   void stage_joint_tables(StagedUploads &uploads) const;
   void refuse_joined(const char *call, const char *why, std::span<const uint32_t> given) const;
@@ -315,6 +328,7 @@ struct World::Implementation {
   Memory memory;
   StepBuffers buffers;
   JointGraph joint_graph;
+  JointOrder joint_order;
   BodySlots slots;
   ShapeSlots shapes;
   std::set<uint32_t> made_shapes; /* of the scene, for a body alone */

@@ -17,16 +17,14 @@ void check_joints(const Settings &settings, const Scene &scene)
   if (settings.solver != Solver::soft_step)
     throw InputError(fmt::format("{}: the solver {} has no joints, of which the scene has {}; soft-step has them",
                                  scene.name, name_of(settings.solver), scene.joints.size()));
-  if (settings.sleeping)
-    throw InputError(fmt::format("{}: bodies with joints cannot sleep, and the scene has {} joints; leave sleeping off",
-                                 scene.name, scene.joints.size()));
 }
 
 void World::Implementation::stage_joint_tables(StagedUploads &uploads) const
 {
   std::vector<uint32_t> indices(scene.bodies.size());
   for (uint32_t i = 0; i < special.order.size(); ++i) indices[special.order[i]] = i;
-  stage_joints(uploads, scene, joint_graph, indices, plan.bodies, first_joined_pair(sizes()));
+  stage_joints(uploads, scene, joint_graph, joint_order.joints(), indices, plan.bodies);
+  stage_bodies_of_joints(uploads, scene, joint_graph, joint_order.awake(), indices, first_joined_pair(sizes()));
 }
 
 /* given: slots of bodies that a call would change in a way that their joints cannot follow. */

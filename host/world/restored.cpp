@@ -51,9 +51,9 @@ void World::Implementation::take_buffers(const SnapshotContents &contents)
     else memory.upload(buffer, bytes.data(), bytes.size());
   }
   for (const CarriedBuffer &carried : buffers.carried()) /* steps leave the rows of sleepers on both sides */
-    if (row_of(carried.now).capacity == Capacity::BODIES && !contents.islands.empty() &&
-        memory.bytes(carried.now) > 0) {
-      const auto rows = memory.read<std::byte>(carried.now, bodies() * item_bytes(carried.now));
+    if (has_rows_of_sleepers(carried.now) && !contents.islands.empty() && memory.bytes(carried.now) > 0) {
+      const size_t items = items_in_use(memory, carried.now, {bodies(), special.awake}, contents.pairs);
+      const auto rows = memory.read<std::byte>(carried.now, items * item_bytes(carried.now));
       memory.upload(carried.previous, rows.data(), rows.size());
     }
   for (const CarriedBuffer &carried : buffers.carried())
@@ -72,6 +72,7 @@ void World::Implementation::take_islands(const SnapshotContents &contents)
         throw InputError(fmt::format("snapshot: a sleeping pair has {} words and {} are needed; the file is damaged",
                                      pair.words.size(), words));
   for (const SleepingIsland &island : contents.islands) sleepers.add(island);
+  take_joint_order(contents.joint_order);
   if (!sleepers.empty()) sleepers_changed();
   if (settings.sleeping) recount_motion();
   plan.drowsy = contents.drowsy;

@@ -32,6 +32,14 @@ Shape with_materials_from(uint32_t first, Shape shape)
   return shape;
 }
 
+/* A joint with its bodies numbered from another first one. */
+Joint renumbered(Joint joint, uint32_t from, uint32_t to)
+{
+  for (uint32_t *body : {&joint.body_a, &joint.body_b})
+    if (*body != no_body) *body += to - from;
+  return joint;
+}
+
 } // namespace
 
 void SceneTables::add_table(const Scene &scene, Scene &all)
@@ -52,6 +60,9 @@ void SceneTables::add(const Scene &scene, Scene &all)
   };
   if (tables_.empty() || !has_tables(tables_.back())) add_table(scene, all);
   table_of_.push_back(static_cast<uint32_t>(tables_.size() - 1));
+  const auto first_body = static_cast<uint32_t>(all.bodies.size());
+  for (const Joint &joint : scene.joints) all.joints.push_back(renumbered(joint, 0, first_body));
+  first_joint_.push_back(all.joints.size());
   for (Body body : scene.bodies) {
     body.shape += tables_.back().first_shape;
     body.material += tables_.back().first_material;
@@ -59,7 +70,7 @@ void SceneTables::add(const Scene &scene, Scene &all)
   }
 }
 
-Scene SceneTables::scene_of(uint32_t world, std::span<const Body> bodies, const Vec3 &gravity) const
+Scene SceneTables::scene_of(uint32_t world, const Scene &all, uint32_t bodies, const Vec3 &gravity) const
 {
   const Table &own = table(world);
   Scene scene;
@@ -67,7 +78,10 @@ Scene SceneTables::scene_of(uint32_t world, std::span<const Body> bodies, const 
   scene.gravity = gravity;
   scene.shapes = own.shapes;
   scene.materials = own.materials;
-  scene.bodies.assign(bodies.begin(), bodies.end());
+  const auto first = all.bodies.begin() + static_cast<ptrdiff_t>(size_t{world} * bodies);
+  scene.bodies.assign(first, first + bodies);
+  for (size_t k = first_joint_[world]; k < first_joint_[world + 1]; ++k)
+    scene.joints.push_back(renumbered(all.joints[k], world * bodies, 0));
   for (Body &body : scene.bodies) {
     body.shape -= own.first_shape;
     body.material -= own.first_material;

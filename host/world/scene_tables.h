@@ -1,5 +1,5 @@
-/* scene_tables.h - the shapes and materials of the scenes of a batch, one scene after the other in the scene of them
- * all. Scenes with equal tables, such as copies of one, share them. */
+/* scene_tables.h - the shapes, materials and joints of the scenes of a batch, one scene after the other in the scene of
+ * them all. Scenes with equal shapes and materials, such as copies of one, share these. */
 #pragma once
 
 #include <cstdint>
@@ -13,10 +13,10 @@ namespace tandem {
 
 class SceneTables {
 public:
-  /* Adds bodies and tables of a world's scene to those of all. */
+  /* Adds bodies, joints and tables of a world's scene to those of all. */
   void add(const Scene &scene, Scene &all);
-  /* The scene of a world, with these bodies of the scene of all. */
-  Scene scene_of(uint32_t world, std::span<const Body> bodies, const Vec3 &gravity) const;
+  /* The scene of a world of this scene of all, in which so many bodies belong to each. */
+  Scene scene_of(uint32_t world, const Scene &all, uint32_t bodies, const Vec3 &gravity) const;
 
   uint32_t worlds() const { return static_cast<uint32_t>(table_of_.size()); }
   uint32_t materials(uint32_t world) const { return static_cast<uint32_t>(table(world).materials.size()); }
@@ -33,7 +33,8 @@ private:
   void add_table(const Scene &scene, Scene &all);
 
   std::vector<Table> tables_;
-  std::vector<uint32_t> table_of_; /* by world */
+  std::vector<uint32_t> table_of_;        /* by world */
+  std::vector<size_t> first_joint_ = {0}; /* of each world, and the end */
 };
 
 } // namespace tandem

@@ -11,8 +11,9 @@
  *
  * A large body that wakes is one of the small ones from then on: the broadphase finds the same pairs, and takes longer.
  *
- * An island wakes when a body that is awake touches it, when a call changes one of its bodies, or when a body beside it
- * is destroyed or set elsewhere.
+ * An island wakes when a body that is awake touches it, when a call changes one of its bodies or a body that is joined
+ * to one, or when a body beside it is destroyed or set elsewhere. Its joints sleep and wake with it
+ * (host/world/joint_order.h).
  */
 #include <algorithm>
 #include <set>
@@ -45,8 +46,8 @@ bool follows_bodies(Buffer buffer)
   const BufferRow &row = row_of(buffer);
   const bool kept =
       row.lifetime == Lifetime::SCENE || (row.lifetime == Lifetime::KEPT && index_of(buffer) >= buffer_count);
-  return kept && (row.capacity == Capacity::BODIES || row.capacity == Capacity::SHAPES ||
-                  row.capacity == Capacity::FILTERS);
+  return kept &&
+         (row.capacity == Capacity::BODIES || row.capacity == Capacity::SHAPES || row.capacity == Capacity::FILTERS);
 }
 
 } // namespace
@@ -88,6 +89,7 @@ void World::Implementation::note_sleep(Recorder &recorder) const
   recorder.note(Kernel::disturb_rest);
   const std::vector<bool> touched = recorder.touched;
   for (const BodyRows &rows : body_rows(touched)) move_body_rows(recorder, rows, COUNT_LENGTH, plan.bodies);
+  for (const BodyRows &rows : joint_rows(touched)) launch_moves_of_joints(recorder, rows, plan.bodies);
   for (const CarriedBuffer &rows : pair_rows(touched))
     move_pair_rows(recorder, rows.now, rows.previous, plan.capacity_pairs);
 }
@@ -230,8 +232,9 @@ void World::Implementation::put_to_sleep()
     memory.exchange(rows.now, rows.previous);
   }
   for (const BodyRows &rows : body_rows(buffers.needs().touched)) move_body_rows(launcher, rows, COUNT_BODIES, before);
-  launches_ended = true;
   take_fallen(falls, labels);
+  put_joints_to_sleep();
+  launches_ended = true;
   const bool appends = is_table_right() && fits_table(before - special.awake);
   sleepers_changed(!appends);
   if (appends) append_fallen(before);
@@ -388,6 +391,7 @@ void World::Implementation::wake(const std::set<uint32_t> &islands)
   const uint32_t moved = bring_forward(bodies_woken);
   if (moved > 0 && is_table_right()) renumber_sleepers(launcher, special.awake, moved);
   return_pairs(woken, first);
+  wake_joints(bodies_woken);
   const std::vector<uint32_t> none(bodies_woken.size());
   memory.upload(Buffer::resting_steps, none.data(), none.size() * sizeof(uint32_t), first * sizeof(uint32_t));
   for (const uint32_t slot : bodies_woken) sleep_events_to_come.push_back({slots.id_of(slot), false});
@@ -402,13 +406,15 @@ void World::Implementation::wake_all()
   wake(islands);
 }
 
-/* The islands of these bodies, and of those beside them if asked. */
+/* The islands of these bodies and of what is joined to them, and of those beside them if asked. A body that cannot
+ * sleep may have a joint with one that does. */
 void World::Implementation::wake_bodies(std::span<const uint32_t> of_slots, bool beside)
 {
   if (sleepers.empty()) return;
   std::set<uint32_t> islands;
   for (const uint32_t slot : of_slots) {
     if (sleepers.sleeps(slot)) islands.insert(sleepers.island_of(slot));
+    islands.merge(islands_joined_to(slot));
     if (!beside) continue;
     const std::vector<uint32_t> found = sleepers.beside(slot);
     islands.insert(found.begin(), found.end());

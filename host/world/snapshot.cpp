@@ -368,6 +368,7 @@ SnapshotContents read_snapshot(std::span<const std::byte> bytes, const std::stri
   const auto islands = reader.get<uint64_t>(); /* one after the other: they are no list where they are written from */
   for (uint64_t k = 0; k < islands; ++k) reader.get(contents.islands.emplace_back());
   check_islands(reader, contents);
+  reader.get(contents.joint_order);
   reader.get(contents.room);
   reader.get(contents.forces);
   reader.get(contents.drowsy);
@@ -449,6 +450,8 @@ std::vector<std::byte> World::Implementation::save(std::vector<std::byte> memory
   put_shapes(writer, shapes, made_shapes);
   writer.put(uint64_t{sleepers.islands()});
   for (const auto &[number, island] : sleepers.all()) writer.put(island);
+  const std::span<const uint32_t> joints = sleepers.empty() ? std::span<const uint32_t>{} : joint_order.joints();
+  writer.put(std::vector<uint32_t>(joints.begin(), joints.end()));
   put_history(writer);
   put_buffers(writer);
   return seal(writer, snapshot_kind, run_parts);

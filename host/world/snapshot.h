@@ -24,7 +24,7 @@
 
 namespace tandem {
 
-constexpr SealedKind snapshot_kind{{'T', 'A', 'N', 'D', 'E', 'M', 'S', '\n'}, 5, "snapshot"};
+constexpr SealedKind snapshot_kind{{'T', 'A', 'N', 'D', 'E', 'M', 'S', '\n'}, 6, "snapshot"};
 
 /* A buffer's items in use. */
 struct SavedBuffer {
@@ -39,6 +39,7 @@ struct SnapshotContents {
   Specialisation special; /* features: those that the scene has needed so far */
   BodySlots slots{0};
   std::vector<SleepingIsland> islands; /* in the order in which they fell asleep */
+  std::vector<uint32_t> joint_order;   /* by place (host/world/joint_order.h); empty if nobody sleeps */
   ShapeSlots shapes;
   std::vector<uint32_t> made_shapes; /* of the scene, that belong to one body alone */
   uint32_t room = 0; /* bodies that the buffers hold; it decides when the median size is computed again */

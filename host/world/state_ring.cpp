@@ -115,6 +115,8 @@ void World::Implementation::keep_states(uint32_t states, bool after_steps)
   constexpr uint32_t most_states = 10000;
   if (states > most_states)
     throw InputError(fmt::format("keep_states: {} states; {} are the most", states, most_states));
+  if (states > 0 && settings.sleeping && !scene.joints.empty())
+    throw InputError("keep_states: a world with sleeping and joints keeps no states yet; leave one of them off");
   StateRing fresh;
   fresh.resize(states, after_steps);
   if (states > 0) buffers.make_ready(sizes());
@@ -132,8 +134,13 @@ std::shared_ptr<const KeptSleepers> World::Implementation::keep_sleepers()
 {
   std::shared_ptr<const KeptSleepers> &kept = ring.shared_sleepers();
   if (!kept || kept->number != set_of_sleepers || kept->order.size() != bodies())
-    kept = std::make_shared<const KeptSleepers>(
-        KeptSleepers{set_of_sleepers, special.order, index_of_body, special.large, sleepers});
+    kept = std::make_shared<const KeptSleepers>(KeptSleepers{set_of_sleepers,
+                                                             special.order,
+                                                             index_of_body,
+                                                             {joint_order.joints().begin(), joint_order.joints().end()},
+                                                             joint_order.awake().size(),
+                                                             special.large,
+                                                             sleepers});
   return kept;
 }
 
@@ -265,6 +272,7 @@ void World::Implementation::take_roster(const KeptState &state, BodySlots &slots
 void World::Implementation::take_sleepers(KeptSleepers &then)
 {
   reorder_rows(then.order);
+  move_joint_rows(joint_order.take(std::move(then.joints), then.awake_joints), false);
   special.order.swap(then.order);
   index_of_body.swap(then.index_of_body);
   special.large = then.large;
@@ -276,9 +284,9 @@ void World::Implementation::take_sleepers(KeptSleepers &then)
 void World::Implementation::put_back_sleepers(const KeptState &then)
 {
   for (size_t i = 0; i < buffers.carried().size(); ++i)
-    if (row_of(buffers.carried()[i].now).capacity == Capacity::BODIES)
-      memory.put_back(buffers.carried()[i].previous, then.buffers[i]);
+    if (has_rows_of_sleepers(buffers.carried()[i].now)) memory.put_back(buffers.carried()[i].previous, then.buffers[i]);
   tell_sleepers();
+  tell_joints();
 }
 
 /* Steps without the stage of forces, as before the first force. */

@@ -38,6 +38,8 @@ struct RosterChange {
 struct KeptSleepers {
   uint64_t number; /* of this set of sleepers; each set has its own */
   std::vector<uint32_t> order, index_of_body;
+  std::vector<uint32_t> joints; /* by place: host/world/joint_order.h */
+  size_t awake_joints;
   uint32_t large;
   Sleepers sleepers;
 };

@@ -187,6 +187,7 @@ void World::Implementation::undo(const Attempt &before) noexcept
   plan.sleepers = !sleepers.empty();
   plan.other_sleepers = true;
   for (const auto &[entry, value] : scene_entries) plan.known[static_cast<size_t>(entry)] = value;
+  plan_joints(); /* the attempt may have woken some */
   if (grown.pairs != before.plan.capacity_pairs) guess_counts();
   try {
     restore_bodies();

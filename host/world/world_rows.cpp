@@ -41,6 +41,16 @@ std::vector<uint32_t> WorldReader::starts_of(const WorldPlace &place)
   return words_of(items(Buffer::cached_start, place.first, place.bodies + size_t{1}));
 }
 
+std::vector<std::byte> WorldReader::rows_of_joints(Buffer buffer, const JointPlaces &joints)
+{
+  std::vector<std::byte> rows;
+  for_each_run(items_of_joints(buffer, joints), [&](size_t, size_t first, size_t count) {
+    const std::vector<std::byte> run = items(buffer, first, count);
+    rows.insert(rows.end(), run.begin(), run.end());
+  });
+  return rows;
+}
+
 std::vector<std::byte> WorldReader::row_of_world(Buffer buffer, const WorldPlace &place,
                                                  std::span<const uint32_t> starts)
 {
@@ -48,6 +58,7 @@ std::vector<std::byte> WorldReader::row_of_world(Buffer buffer, const WorldPlace
   const size_t pairs = starts.back() - starts.front();
   if (buffer == Buffer::cached_b) return counted_from(place.first, words_of(items(buffer, starts.front(), pairs)));
   if (row_of(buffer).capacity == Capacity::PAIRS) return items(buffer, starts.front(), pairs);
+  if (has_rows_of_joints(row_of(buffer))) return rows_of_joints(buffer, place.joints);
   return items(buffer, place.first, place.bodies);
 }
 
@@ -55,8 +66,11 @@ std::vector<WorldRow> WorldReader::rows_of(const WorldPlace &place)
 {
   const std::vector<uint32_t> starts = starts_of(place);
   std::vector<WorldRow> rows;
-  for (const CarriedBuffer &carried : carried_)
-    if (memory_.bytes(carried.now) > 0) rows.push_back({carried.now, row_of_world(carried.now, place, starts)});
+  for (const CarriedBuffer &carried : carried_) {
+    if (memory_.bytes(carried.now) == 0) continue;
+    WorldRow row{carried.now, row_of_world(carried.now, place, starts)};
+    if (!has_rows_of_joints(row_of(carried.now)) || !row.bytes.empty()) rows.push_back(std::move(row));
+  }
   return rows;
 }
 

@@ -10,6 +10,7 @@
 
 #include "host/runtime/memory.h"
 #include "host/world/carried.h"
+#include "host/world/world_joints.h"
 
 namespace tandem {
 
@@ -23,6 +24,7 @@ struct WorldRow {
 struct WorldPlace {
   uint32_t first, bodies; /* in the buffers */
   bool fresh;             /* reset since the last step: it has no cached pairs, whatever the cache holds */
+  JointPlaces joints;
 };
 
 class WorldReader {
@@ -33,11 +35,12 @@ public:
   {}
   /* The rows of one buffer in the order of the batch. items: of the buffer. */
   std::vector<std::byte> items(Buffer buffer, size_t first, size_t items);
-  /* The rows of all carried buffers that the batch has. */
+  /* The rows of all carried buffers that the batch has; none of joints that the world alone has not. */
   std::vector<WorldRow> rows_of(const WorldPlace &place);
 
 private:
   std::vector<uint32_t> starts_of(const WorldPlace &place);
+  std::vector<std::byte> rows_of_joints(Buffer buffer, const JointPlaces &joints);
   std::vector<std::byte> row_of_world(Buffer buffer, const WorldPlace &place, std::span<const uint32_t> starts);
 
   Memory &memory_;

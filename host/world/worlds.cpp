@@ -24,9 +24,6 @@ void check_scenes(std::span<const Scene> scenes, uint32_t copies)
   if (scenes.empty() || copies == 0) throw InputError("worlds: 0 worlds; at least 1 is needed");
   for (size_t k = 0; k < scenes.size(); ++k) {
     validate(scenes[k], scenes[k].name);
-    if (!scenes[k].joints.empty())
-      throw InputError(fmt::format("worlds: scene {} ('{}') has {} joints; the worlds of a batch have none", k,
-                                   scenes[k].name, scenes[k].joints.size()));
     if (scenes[k].bodies.size() != scenes.front().bodies.size())
       throw InputError(
           fmt::format("worlds: scene {} ('{}') has {} bodies and scene 0 has {}; the worlds of a batch have "
@@ -92,6 +89,7 @@ Worlds::Implementation::Implementation(std::span<const Scene> scenes, uint32_t c
   world.reset(new World(std::make_unique<World::Implementation>(
       World::Implementation::Beginning{std::move(all), used, std::move(special), BodySlots(count), count, pairs, false},
       placement)));
+  joints = WorldJoints(engine().scene, engine().joint_graph, tables.worlds());
   upload_batch();
 }
 
@@ -118,13 +116,12 @@ std::vector<BodyId> Worlds::Implementation::ids_of(const char *call, std::span<c
 
 WorldPlace Worlds::Implementation::place_of(uint32_t number) const
 {
-  return {number * bodies, bodies, steps(number) == 0};
+  return {number * bodies, bodies, steps(number) == 0, joints.of(number)};
 }
 
 Scene Worlds::Implementation::scene(uint32_t number) const
 {
-  const std::span<const Body> all(engine().scene.bodies);
-  return tables.scene_of(number, all.subspan(size_t{number} * bodies, bodies), gravity[number]);
+  return tables.scene_of(number, engine().scene, bodies, gravity[number]);
 }
 
 Worlds::Worlds(const Scene &scene, uint32_t worlds, const Settings &settings, const Placement &placement)

@@ -12,6 +12,7 @@
 #include "host/world/implementation.h"
 #include "host/world/scene_tables.h"
 #include "host/world/snapshot.h"
+#include "host/world/world_joints.h"
 #include "host/world/world_rows.h"
 
 namespace tandem {
@@ -39,6 +40,7 @@ struct Worlds::Implementation {
   void reset(std::span<const uint32_t> given);
   void take_out_of_quarantine(std::span<const uint32_t> numbers); /* numbers: ascending, as below */
   void launch_reset(std::span<const uint32_t> numbers);
+  void launch_reset_of_joints(std::span<const uint32_t> numbers);
 
   /* --- worlds as they would be alone: worlds_alone.cpp --- */
   bool has_alone(uint32_t number, Buffer buffer) const;
@@ -58,11 +60,13 @@ struct Worlds::Implementation {
   void load_pairs(uint32_t number, const CachedRange &old, uint64_t all_pairs, const SnapshotContents &contents);
   void load_starts(const CachedRange &old, uint32_t first, std::span<const std::byte> rows);
   void load_bodies(uint32_t number, const SnapshotContents &contents);
+  void load_joints(Buffer buffer, uint32_t number, std::span<const std::byte> rows);
 
   template <class Event> WorldEvents<Event> by_world(std::vector<Event> events) const;
 
   Settings settings; /* as they were given */
   SceneTables tables;
+  WorldJoints joints;
   uint32_t bodies = 0;           /* of each world */
   std::vector<Vec3> gravity;     /* by world, as all that follows */
   std::vector<uint64_t> started; /* steps of the batch when the world began */

@@ -144,9 +144,12 @@ void Worlds::Implementation::load_bodies(uint32_t number, const SnapshotContents
   World::Implementation &all = engine();
   const uint32_t first = number * bodies;
   if (contents.forces) all.use_forces();
-  for (const auto &[buffer, rows] : contents.buffers)
-    if (row_of(buffer).capacity == Capacity::BODIES && all.memory.bytes(buffer) > 0)
+  for (const auto &[buffer, rows] : contents.buffers) {
+    if (all.memory.bytes(buffer) == 0) continue;
+    if (row_of(buffer).capacity == Capacity::BODIES)
       all.memory.upload(buffer, rows.data(), rows.size(), first * item_bytes(buffer));
+    if (has_rows_of_joints(row_of(buffer))) load_joints(buffer, number, rows);
+  }
   StagedUploads uploads;
   for (Quarantine taken : contents.quarantined) {
     taken.body += first;
@@ -158,6 +161,14 @@ void Worlds::Implementation::load_bodies(uint32_t number, const SnapshotContents
     all.quarantined.push_back(std::move(taken));
   }
   uploads.write(all.memory);
+}
+
+void Worlds::Implementation::load_joints(Buffer buffer, uint32_t number, std::span<const std::byte> rows)
+{
+  const size_t item = item_bytes(buffer);
+  for_each_run(items_of_joints(buffer, joints.of(number)), [&](size_t at, size_t first, size_t count) {
+    engine().memory.upload(buffer, &rows[at * item], count * item, first * item);
+  });
 }
 
 /* The world is reset first, which leaves nothing of what it was. */

@@ -107,22 +107,47 @@ void Worlds::Implementation::take_out_of_quarantine(std::span<const uint32_t> nu
   std::erase_if(all.quarantined, begins_anew);
 }
 
+namespace {
+
+/* Uploads a list of the host, over which the next launches run. */
+void upload_list(Memory &memory, Buffer buffer, const std::vector<uint32_t> &list, uint32_t items)
+{
+  const size_t bytes = list.size() * sizeof(uint32_t);
+  if (memory.bytes(buffer) < bytes) memory.resize(buffer, bytes + bytes / 2);
+  memory.upload(buffer, list.data(), bytes);
+  set_length(memory, items);
+}
+
+} // namespace
+
 void Worlds::Implementation::launch_reset(std::span<const uint32_t> numbers)
 {
   World::Implementation &all = engine();
   std::vector<uint32_t> firsts;
   for (const uint32_t number : numbers) firsts.push_back(number * bodies);
-  const size_t bytes = firsts.size() * sizeof(uint32_t);
-  if (all.memory.bytes(Buffer::reset_world) < bytes) all.memory.resize(Buffer::reset_world, bytes + bytes / 2);
-  all.memory.upload(Buffer::reset_world, firsts.data(), bytes);
   const auto items = static_cast<uint32_t>(firsts.size()) * bodies;
-  set_length(all.memory, items);
+  upload_list(all.memory, Buffer::reset_world, firsts, items);
   const auto launch = [&](Kernel kernel) {
     all.launcher.launch({kernel, {}, {bodies}, COUNT_ZERO, COUNT_LENGTH, items});
   };
   launch(Kernel::reset_worlds);
   if (settings.events) launch(Kernel::reset_touching);
   if (all.plan.forces) launch(Kernel::reset_forces);
+  launch_reset_of_joints(numbers);
+}
+
+void Worlds::Implementation::launch_reset_of_joints(std::span<const uint32_t> numbers)
+{
+  World::Implementation &all = engine();
+  std::vector<uint32_t> places;
+  for (const uint32_t number : numbers) {
+    const std::span<const uint32_t> own = joints.of(number).places;
+    places.insert(places.end(), own.begin(), own.end());
+  }
+  if (places.empty()) return;
+  const auto items = static_cast<uint32_t>(places.size());
+  upload_list(all.memory, Buffer::reset_joint, places, items);
+  all.launcher.launch({Kernel::reset_joints, {}, {}, COUNT_ZERO, COUNT_LENGTH, items});
 }
 
 } // namespace tandem

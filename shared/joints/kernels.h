@@ -7,6 +7,8 @@
 #include "shared/joints/prepare.h"
 #include "shared/joints/solve.h"
 #ifndef TANDEM_LANES /* ITEM kernels take one item at a time */
+#include "shared/joints/by_world.h"
+#include "shared/joints/driven.h"
 #include "shared/joints/overflow.h"
 #endif
 

@@ -1,21 +1,22 @@
-/* islands.h - islands of bodies that touch each other, and which of them may fall asleep.
+/* islands.h - islands of bodies that touch each other or are joined, and which of them may fall asleep.
  *
  *     box 4 -- box 2 -- box 7      ground      box 3 -- box 5
  *     label 2  label 2  label 2       -        label 3  label 3
  *
- * The label of an island is the lowest index of its bodies. Contacts join dynamic bodies alone, because whatever stands
- * on one ground would otherwise be one island. Labels come from hooking and pointer jumping (Shiloach and Vishkin, "An
- * O(log n) parallel connectivity algorithm", 1982), in rounds of two kernels:
+ * The label of an island is the lowest index of its bodies. Contacts and joints join dynamic bodies alone, because
+ * whatever stands on one ground would otherwise be one island. Labels come from hooking and pointer jumping (Shiloach
+ * and Vishkin, "An O(log n) parallel connectivity algorithm", 1982), in rounds of two kernels:
  *
- *   hook_islands   each contact sets the next label of the higher of its two labels to the lower one, by a minimum
+ *   hook_islands   each contact sets the next label of the higher of its two labels to the lower one, by a minimum;
+ *                  hook_joints does so for each joint
  *   jump_islands   each body takes the next label of its next label
  *
  * Minima of integers do not depend on order, and each kernel reads what the other one wrote, so every round has the
  * same bits on every backend. A round that changes nothing is the last; if there was none, the step runs again with
  * more rounds.
  *
- * An island stays awake if one of its bodies is not drowsy, touches a kinematic body that moves, or touches a trigger
- * while one of the two may move.
+ * An island stays awake if one of its bodies is not drowsy, touches a kinematic body that moves or is joined to one, or
+ * touches a trigger while one of the two may move.
  */
 #ifndef TANDEM_SHARED_SLEEPING_ISLANDS_H
 #define TANDEM_SHARED_SLEEPING_ISLANDS_H
@@ -28,17 +29,36 @@ SHARED void begin_islands_item(GLOBAL uint *island_label, GLOBAL uint *island_ne
   island_awake[i] = 0u;
 }
 
-SHARED void hook_islands_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
-                              GLOBAL const uint *body_flags, GLOBAL const uint *island_label, GLOBAL uint *island_next,
-                              GLOBAL uint *counts, uint round, uint i)
+SHARED void hook_bodies(GLOBAL const uint *body_flags, GLOBAL const uint *island_label, GLOBAL uint *island_next,
+                        GLOBAL uint *counts, uint round, uint a, uint b)
 {
-  uint a = constraint_a[i], b = constraint_b[i];
   if (!is_dynamic(body_flags, a) || !is_dynamic(body_flags, b)) return;
   uint one = island_label[a], other = island_label[b];
   if (one == other) return;
   uint lower = one < other ? one : other, higher = one < other ? other : one;
   ATOMIC_MIN(island_next + higher, lower);
   ATOMIC_MAX(counts + COUNT_ISLAND_ROUNDS, round + 1u);
+}
+
+SHARED void hook_islands_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
+                              GLOBAL const uint *body_flags, GLOBAL const uint *island_label, GLOBAL uint *island_next,
+                              GLOBAL uint *counts, uint round, uint i)
+{
+  hook_bodies(body_flags, island_label, island_next, counts, round, constraint_a[i], constraint_b[i]);
+}
+
+SHARED uint is_to_world(GLOBAL const uint *joint_a, GLOBAL const uint *joint_b, uint i)
+{
+  return joint_a[i] == INDEX_NONE || joint_b[i] == INDEX_NONE ? 1u : 0u;
+}
+
+/* A joint to the world joins nothing. */
+SHARED void hook_joints_item(GLOBAL const uint *joint_a, GLOBAL const uint *joint_b, GLOBAL const uint *body_flags,
+                             GLOBAL const uint *island_label, GLOBAL uint *island_next, GLOBAL uint *counts, uint round,
+                             uint i)
+{
+  if (is_to_world(joint_a, joint_b, i)) return;
+  hook_bodies(body_flags, island_label, island_next, counts, round, joint_a[i], joint_b[i]);
 }
 
 /* The next label of a body may be older than its label, and both are labels of its island; the lower one counts. */
@@ -76,13 +96,26 @@ SHARED uint is_moving_kinematic(GLOBAL const uint *body_flags, GLOBAL const floa
              : 0u;
 }
 
+SHARED void keep_bodies_awake(GLOBAL const uint *body_flags, GLOBAL const float4 *solver_velocity,
+                              GLOBAL const uint *island_label, GLOBAL uint *island_awake, uint a, uint b)
+{
+  if (is_moving_kinematic(body_flags, solver_velocity, a)) ATOMIC_OR(island_awake + island_label[b], 1u);
+  if (is_moving_kinematic(body_flags, solver_velocity, b)) ATOMIC_OR(island_awake + island_label[a], 1u);
+}
+
 SHARED void keep_carried_awake_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
                                     GLOBAL const uint *body_flags, GLOBAL const float4 *solver_velocity,
                                     GLOBAL const uint *island_label, GLOBAL uint *island_awake, uint i)
 {
-  uint a = constraint_a[i], b = constraint_b[i];
-  if (is_moving_kinematic(body_flags, solver_velocity, a)) ATOMIC_OR(island_awake + island_label[b], 1u);
-  if (is_moving_kinematic(body_flags, solver_velocity, b)) ATOMIC_OR(island_awake + island_label[a], 1u);
+  keep_bodies_awake(body_flags, solver_velocity, island_label, island_awake, constraint_a[i], constraint_b[i]);
+}
+
+SHARED void keep_joined_awake_item(GLOBAL const uint *joint_a, GLOBAL const uint *joint_b,
+                                   GLOBAL const uint *body_flags, GLOBAL const float4 *solver_velocity,
+                                   GLOBAL const uint *island_label, GLOBAL uint *island_awake, uint i)
+{
+  if (is_to_world(joint_a, joint_b, i)) return;
+  keep_bodies_awake(body_flags, solver_velocity, island_label, island_awake, joint_a[i], joint_b[i]);
 }
 
 SHARED uint may_move(GLOBAL const Parameters *parameters, GLOBAL const uint *body_flags, GLOBAL const uint *rest_count,

@@ -7,9 +7,13 @@
 namespace tandem {
 namespace {
 
-void solve(StepLaunches &step, MassSplit &overflow, uint32_t pass)
+/* further: of a batch, only worlds with overflow constraints take part. */
+void solve(StepLaunches &step, MassSplit &overflow, uint32_t pass, bool further = false)
 {
-  step.for_each_color_with_joints(Kernel::solve_joints, Kernel::solve_overflow_joints, Kernel::solve_contacts, {pass});
+  step.for_each_color_with_joints(further ? Kernel::solve_joints_further : Kernel::solve_joints, Kernel::solve_contacts,
+                                  {pass});
+  if (step.has(FEATURE_WORLDS)) step.run_overflow_joints(Kernel::solve_overflow_joints_by_world, {pass, further});
+  else step.run_overflow_joints(Kernel::solve_overflow_joints, {pass});
   overflow.solve(pass, overflow_iterations);
   solve_rolling(step);
 }
@@ -25,9 +29,17 @@ uint32_t passes_of(const StepLaunches &step, uint32_t substep)
 void solve_in_turns(StepLaunches &step, MassSplit &overflow, uint32_t passes)
 {
   for (uint32_t pass = 0; pass < passes; ++pass) solve(step, overflow, PASS_BIASED);
-  step.limit_to_worlds_with_overflow(step.has(FEATURE_WORLDS));
-  for (uint32_t pass = passes; pass < passes * overflow.turns(); ++pass) solve(step, overflow, PASS_BIASED);
+  const bool in_batch = step.has(FEATURE_WORLDS);
+  step.limit_to_worlds_with_overflow(in_batch);
+  for (uint32_t pass = passes; pass < passes * overflow.turns(); ++pass) solve(step, overflow, PASS_BIASED, in_batch);
   step.limit_to_worlds_with_overflow(false);
+}
+
+void warm_start_with_joints(StepLaunches &step)
+{
+  step.for_each_color_with_joints(Kernel::warm_start_joints, Kernel::warm_start);
+  step.run_overflow_joints(step.has(FEATURE_WORLDS) ? Kernel::warm_start_overflow_joints_by_world
+                                                    : Kernel::warm_start_overflow_joints);
 }
 
 /* Later substeps read the impulses of the colours from warm_start_impulse; the overflow constraints apply their own in
@@ -35,8 +47,7 @@ void solve_in_turns(StepLaunches &step, MassSplit &overflow, uint32_t passes)
 void launch_soft_step_substep(StepLaunches &step, MassSplit &overflow, uint32_t substep)
 {
   step.begin_substep(substep);
-  if (substep == 0)
-    step.for_each_color_with_joints(Kernel::warm_start_joints, Kernel::warm_start_overflow_joints, Kernel::warm_start);
+  if (substep == 0) warm_start_with_joints(step);
   overflow.warm_start();
   warm_start_rolling(step);
   solve_in_turns(step, overflow, passes_of(step, substep));

@@ -84,6 +84,7 @@ enum class Capacity : uint8_t {
   BODIES,
   BODIES_PLUS_ONE,
   SLEEPERS,
+  MOVED_ROWS,
   PAIRS,
   PAIRS_PLUS_ONE,
   EVENTS,
@@ -131,6 +132,11 @@ struct BufferRow {
   Lifetime lifetime;
   const char *fields; /* names of the scalars of one item, separated by spaces */
 };
+
+constexpr bool has_rows_of_joints(const BufferRow &row)
+{
+  return row.capacity == Capacity::JOINTS || row.capacity == Capacity::JOINT_AXES;
+}
 
 TANDEM_API const KernelRow &row_of(Kernel kernel);
 TANDEM_API const BufferRow &row_of(Buffer buffer);

@@ -1,6 +1,4 @@
 /* What a world with joints refuses, by name, and leaves as it was. */
-#include <tandem/worlds.h>
-
 #include "tests/catch.h"
 #include "tests/physics/joints.h"
 
@@ -22,7 +20,7 @@ Scene two_joined_and_one_free()
 
 } // namespace
 
-TEST_CASE("solvers without joints, sleeping and batches of worlds refuse joints by name")
+TEST_CASE("solvers without joints refuse them by name")
 {
   const Scene scene = two_joined_and_one_free();
   for (const Solver solver : choices<Solver>()) {
@@ -31,10 +29,6 @@ TEST_CASE("solvers without joints, sleeping and batches of worlds refuse joints 
     CHECK_THROWS_WITH(World(scene, settings_for(solver), {"serial", {}}),
                       ContainsSubstring(std::string("the solver ") + name_of(solver) + " has no joints"));
   }
-  Settings sleeping;
-  sleeping.sleeping = true;
-  CHECK_THROWS_WITH(World(scene, sleeping, {"serial", {}}), ContainsSubstring("bodies with joints cannot sleep"));
-  CHECK_THROWS_WITH(Worlds(scene, 3), ContainsSubstring("has 2 joints; the worlds of a batch have none"));
 }
 
 TEST_CASE("joined bodies are not destroyed and keep their types, and others may")
