@@ -417,6 +417,11 @@ typedef struct {
   BUFFER(joint_axis_kind, uint, kind)                                                                                  \
   BUFFER(joint_axis_row, float4, row)
 
+/* Which worlds of a batch joints belong to, and which of them take further passes. */
+#define GROUP_joint_worlds(BUFFER)                                                                                     \
+  BUFFER(body_world, uint, of_body)                                                                                    \
+  BUFFER(world_overflows, uint, overflows)
+
 #define GROUP_joint_places(BUFFER)                                                                                     \
   BUFFER(body_position, float4, position)                                                                              \
   BUFFER(joint_world_frame, float4, world_frame)
@@ -437,6 +442,9 @@ typedef struct {
 typedef struct {
   GROUP_joint_axes(READ_MEMBER)
 } read_joint_axes;
+typedef struct {
+  GROUP_joint_worlds(READ_MEMBER)
+} read_joint_worlds;
 typedef struct {
   GROUP_joint_places(READ_MEMBER)
 } read_joint_places;

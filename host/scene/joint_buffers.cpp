@@ -109,7 +109,7 @@ public:
   float of(const Joint &joint, uint32_t body) const
   {
     if (!is_between_dynamic(scene_, joint) || joints_[body] <= 6) return 1;
-    return 0.5f * static_cast<float>(joints_[body]);
+    return round_to_float(0.5 * joints_[body]);
   }
 
 private:

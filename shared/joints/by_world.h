@@ -24,7 +24,7 @@ SHARED uint begins_world(read_joints joints, GLOBAL const uint *body_world, GLOB
 }
 
 /* The overflow joints of the world `own`, of which i is the first. */
-#define FOR_EACH_OVERFLOW_JOINT_OF_WORLD(k, i, own) \
+#define FOR_EACH_OVERFLOW_JOINT_OF_WORLD(k, i, own, body_world) \
   for (uint k = i; k < counts[COUNT_JOINTS] && world_of_joint(joints, body_world, k) == (own); ++k)
 
 SHARED void warm_start_overflow_joints_by_world_item(GLOBAL const Parameters *parameters, read_joints joints,
@@ -34,32 +34,30 @@ SHARED void warm_start_overflow_joints_by_world_item(GLOBAL const Parameters *pa
 {
   if (!begins_world(joints, body_world, counts, i)) return;
   uint own = world_of_joint(joints, body_world, i);
-  FOR_EACH_OVERFLOW_JOINT_OF_WORLD(k, i, own)
+  FOR_EACH_OVERFLOW_JOINT_OF_WORLD(k, i, own, body_world)
   warm_start_joints_item(parameters, joints, bodies, axes, impulses, solver_velocity, k);
 }
 
 /* further: whether the pass is one of those that only worlds with overflow constraints take. */
 SHARED void solve_overflow_joints_by_world_item(GLOBAL const Parameters *parameters, read_joints joints,
                                                 read_turning_bodies bodies, read_joint_axes axes,
-                                                GLOBAL const uint *body_world, GLOBAL const uint *world_overflows,
-                                                GLOBAL const uint *counts, write_joint_impulses impulses,
-                                                GLOBAL float4 *solver_velocity, GLOBAL float4 *warm_start_impulse,
-                                                uint pass, uint further, uint i)
+                                                read_joint_worlds worlds, GLOBAL const uint *counts,
+                                                write_joint_impulses impulses, GLOBAL float4 *solver_velocity,
+                                                GLOBAL float4 *warm_start_impulse, uint pass, uint further, uint i)
 {
-  if (!begins_world(joints, body_world, counts, i)) return;
-  uint own = world_of_joint(joints, body_world, i);
-  if (further && !world_overflows[own]) return;
-  FOR_EACH_OVERFLOW_JOINT_OF_WORLD(k, i, own)
+  if (!begins_world(joints, worlds.of_body, counts, i)) return;
+  uint own = world_of_joint(joints, worlds.of_body, i);
+  if (further && !worlds.overflows[own]) return;
+  FOR_EACH_OVERFLOW_JOINT_OF_WORLD(k, i, own, worlds.of_body)
   solve_joints_item(parameters, joints, bodies, axes, impulses, solver_velocity, warm_start_impulse, pass, k);
 }
 
 SHARED void solve_joints_further_item(GLOBAL const Parameters *parameters, read_joints joints,
-                                      read_turning_bodies bodies, read_joint_axes axes, GLOBAL const uint *body_world,
-                                      GLOBAL const uint *world_overflows, write_joint_impulses impulses,
-                                      GLOBAL float4 *solver_velocity, GLOBAL float4 *warm_start_impulse, uint pass,
-                                      uint i)
+                                      read_turning_bodies bodies, read_joint_axes axes, read_joint_worlds worlds,
+                                      write_joint_impulses impulses, GLOBAL float4 *solver_velocity,
+                                      GLOBAL float4 *warm_start_impulse, uint pass, uint i)
 {
-  if (!world_overflows[world_of_joint(joints, body_world, i)]) return;
+  if (!worlds.overflows[world_of_joint(joints, worlds.of_body, i)]) return;
   solve_joints_item(parameters, joints, bodies, axes, impulses, solver_velocity, warm_start_impulse, pass, i);
 }
 
