@@ -244,7 +244,7 @@ TEST_CASE("breakpoint: names the item as its kernel does", "[compare]")
     if (name.empty()) continue;
     const KernelRow &row = row_of(kernel_at(k));
     const std::string function =
-        std::string(" ") + row.name + (row.execution == Execution::group ? "_group(" : "_item(");
+        std::string("void ") + row.name + (row.execution == Execution::group ? "_group(" : "_item(");
     const size_t start = sources.find(function);
     INFO(row.name);
     REQUIRE(start != std::string::npos);
