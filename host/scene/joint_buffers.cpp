@@ -85,21 +85,18 @@ void stage_axes(StagedUploads &uploads, const Scene &scene, std::span<const uint
   rows.stage(uploads);
 }
 
-bool moves(const Scene &scene, uint32_t body)
-{
-  return body != no_body && scene.bodies[body].type == BodyType::dynamic;
-}
-
 bool is_between_dynamic(const Scene &scene, const Joint &joint)
 {
-  return moves(scene, joint.body_a) && moves(scene, joint.body_b);
+  return can_be_pushed(scene, joint.body_a) && can_be_pushed(scene, joint.body_b);
 }
 
 /* How much lighter a body seems to its joints. Gauss-Seidel passes over n joints of a light body with others that move,
  * warm started by the last substep, amplify errors from some 10 joints on: their iteration matrix has complex
- * eigenvalues there. Where each joint takes 2 / n of an error, they settle. A body of 6 joints settles by itself. */
+ * eigenvalues there. Where each joint takes 2 / n of an error, they settle. A body of few settles by itself. */
 class Sharing {
 public:
+  static constexpr uint32_t few = 6;
+
   explicit Sharing(const Scene &scene) : scene_(scene), joints_(scene.bodies.size())
   {
     for (const Joint &joint : scene.joints)
@@ -108,7 +105,7 @@ public:
   }
   float of(const Joint &joint, uint32_t body) const
   {
-    if (!is_between_dynamic(scene_, joint) || joints_[body] <= 6) return 1;
+    if (!is_between_dynamic(scene_, joint) || joints_[body] <= few) return 1;
     return round_to_float(0.5 * joints_[body]);
   }
 
@@ -179,6 +176,11 @@ std::vector<uint32_t> joined_pair_table(const Scene &scene, std::span<const uint
 }
 
 } // namespace
+
+bool can_be_pushed(const Scene &scene, uint32_t body)
+{
+  return body != no_body && scene.bodies[body].type == BodyType::dynamic;
+}
 
 Features joint_features(const Scene &scene)
 {

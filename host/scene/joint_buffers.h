@@ -14,6 +14,9 @@
 
 namespace tandem {
 
+/* Whether joints push the body: not the world (no_body), nor what is fixed or kinematic. */
+bool can_be_pushed(const Scene &scene, uint32_t body);
+
 Features joint_features(const Scene &scene);
 
 /* JointGraph::axes. */

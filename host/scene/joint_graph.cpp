@@ -36,7 +36,7 @@ public:
 
 private:
   /* Bodies that cannot be pushed are shared by the joints of a colour. */
-  bool is_shared(uint32_t body) const { return body == no_body || scene_.bodies[body].type != BodyType::dynamic; }
+  bool is_shared(uint32_t body) const { return !can_be_pushed(scene_, body); }
   uint64_t used_at(uint32_t body) const { return is_shared(body) ? 0 : used_[body]; }
   void mark(uint32_t body, uint32_t color)
   {

@@ -121,7 +121,7 @@ void World::Implementation::take_joint_order(std::vector<uint32_t> joints)
     throw InputError("snapshot: the joints that sleep are not those of the bodies that do; the file is damaged");
   joint_order.take(std::move(joints), awake);
   StagedUploads uploads;
-  stage_joint_tables(uploads);
+  stage_joints(uploads, scene, joint_graph, joint_order.joints(), index_of_body, plan.bodies);
   uploads.write(memory);
   tell_joints();
 }
