@@ -60,6 +60,7 @@ enum {
   COUNT_COMMIT_CONSTRAINTS,
   COUNT_JOINTS,        /* set by the host */
   COUNT_COMMIT_JOINTS, /* these, as the other ranges of the commit */
+  COUNT_BROKEN_JOINTS, /* by the loads of the step: joints/loads.h */
   COUNT_GRID_X, /* cells of the uniform grid along each axis */
   COUNT_GRID_Y,
   COUNT_GRID_Z,

@@ -64,6 +64,13 @@ void StepLaunches::for_each_color_with_joints(Kernel joints, Kernel constraints,
   }
 }
 
+void StepLaunches::for_each_joint_color(Kernel joints, Kernel overflow)
+{
+  for (uint32_t color = 0; color < std::min(plan_.joint_colors, COLOR_LIMIT); ++color)
+    run_range(joints, JOINT_COLOR_START + color, JOINT_COLOR_START + color + 1);
+  if (plan_.joint_colors > COLOR_LIMIT) run(overflow);
+}
+
 void StepLaunches::run_overflow_joints(Kernel kernel, const Values &values)
 {
   if (plan_.joint_colors <= COLOR_LIMIT) return;

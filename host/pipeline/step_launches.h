@@ -38,6 +38,8 @@ public:
   /* Launches a kernel of joints and one of constraints once for each colour, joints first. Both take the same values. A
    * scene without joints has those of constraints alone. */
   void for_each_color_with_joints(Kernel joints, Kernel constraints, const Values &values = {});
+  /* Launches a kernel of joints alone once for each colour, and another one for those beyond, if there are some. */
+  void for_each_joint_color(Kernel joints, Kernel overflow);
   /* Launches a kernel over the overflow joints, if there are some: in a batch, an item starts at each of them. */
   void run_overflow_joints(Kernel kernel, const Values &values = {});
   /* From now on, the colours of a batch of worlds are the constraints of those worlds that have overflow constraints,

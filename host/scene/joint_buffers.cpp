@@ -2,7 +2,9 @@
 #include "host/scene/joint_buffers.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <cmath>
 #include <set>
 #include <utility>
 
@@ -23,9 +25,20 @@ uint32_t modes_of(const Joint &joint)
   return held.directions | held.rotations << JOINT_ANGULAR_SHIFT;
 }
 
-bool is_to_world(const Joint &joint) { return joint.body_a == no_body || joint.body_b == no_body; }
+bool is_to_world(const Joint &joint)
+{
+  return !is_vacant(joint) && (joint.body_a == no_body || joint.body_b == no_body);
+}
 
-bool parts_bodies(const Joint &joint) { return !joint.collide && !is_to_world(joint); }
+bool bounces(const Joint &joint)
+{
+  const std::vector<UsedAxis> used = axes_used_by(joint);
+  return std::any_of(used.begin(), used.end(), [](const UsedAxis &one) { return one.axis.restitution > 0; });
+}
+
+bool can_break(const Joint &joint) { return std::isfinite(joint.break_force) || std::isfinite(joint.break_torque); }
+
+bool parts_bodies(const Joint &joint) { return !joint.collide && joint.body_a != no_body && joint.body_b != no_body; }
 
 /* Two bodies that a joint keeps from colliding, the higher number first. */
 using BodyPair = std::pair<uint32_t, uint32_t>;
@@ -47,6 +60,15 @@ float4 float4_of(const Quat &orientation)
 /* Kernels compute with a number in place of an infinite limit. */
 float finite(float x) { return std::clamp(x, -1e30f, 1e30f); }
 
+/* The row of an axis: shared/joints/axes.h. */
+std::array<float4, 3> row_of_axis(const JointAxis &axis)
+{
+  return {float4{finite(axis.lower), finite(axis.upper), axis.target_position, axis.target_velocity},
+          float4{axis.stiffness, axis.motor ? float{DAMPING_OF_MOTOR} : axis.damping, finite(axis.max_force),
+                 axis.friction},
+          float4{axis.limit_stiffness, axis.limit_damping, finite(axis.max_speed), axis.restitution}};
+}
+
 /* The planes of the axes of joints, by their places. */
 class AxisRows {
 public:
@@ -55,13 +77,9 @@ public:
   {}
   void set(size_t joint, size_t k, const UsedAxis &used)
   {
-    const JointAxis &axis = used.axis;
     kinds_[k * joints_ + joint] = used.kind;
-    rows_[3 * k * joints_ + joint] = {finite(axis.lower), finite(axis.upper), axis.target_position,
-                                      axis.target_velocity};
-    rows_[(3 * k + 1) * joints_ + joint] = {axis.stiffness, axis.motor ? float{DAMPING_OF_MOTOR} : axis.damping,
-                                            finite(axis.max_force), axis.friction};
-    rows_[(3 * k + 2) * joints_ + joint] = {axis.limit_stiffness, axis.limit_damping, finite(axis.max_speed), 0};
+    const std::array<float4, 3> row = row_of_axis(used.axis);
+    for (size_t part = 0; part < row.size(); ++part) rows_[(3 * k + part) * joints_ + joint] = row[part];
   }
   void stage(StagedUploads &uploads)
   {
@@ -74,16 +92,6 @@ private:
   std::vector<uint32_t> kinds_;
   std::vector<float4> rows_;
 };
-
-void stage_axes(StagedUploads &uploads, const Scene &scene, std::span<const uint32_t> joints, uint32_t axes)
-{
-  AxisRows rows(joints.size(), axes);
-  for (size_t i = 0; i < joints.size(); ++i) {
-    const std::vector<UsedAxis> used = axes_used_by(scene.joints[joints[i]]);
-    for (size_t k = 0; k < used.size(); ++k) rows.set(i, k, used[k]);
-  }
-  rows.stage(uploads);
-}
 
 bool is_between_dynamic(const Scene &scene, const Joint &joint)
 {
@@ -100,7 +108,7 @@ public:
   explicit Sharing(const Scene &scene) : scene_(scene), joints_(scene.bodies.size())
   {
     for (const Joint &joint : scene.joints)
-      if (is_between_dynamic(scene, joint))
+      if (joint.enabled && is_between_dynamic(scene, joint))
         for (const uint32_t body : {joint.body_a, joint.body_b}) ++joints_[body];
   }
   float of(const Joint &joint, uint32_t body) const
@@ -117,7 +125,7 @@ private:
 /* The rows of joints, by their places. */
 struct JointRows {
   std::vector<uint32_t> modes;
-  std::vector<float4> arm_a, arm_b, frame_a, frame_b, world_frame;
+  std::vector<float4> arm_a, arm_b, frame_a, frame_b, world_frame, limits;
 
   void add(const Joint &joint, const Sharing &sharing)
   {
@@ -128,6 +136,7 @@ struct JointRows {
     frame_b.push_back(float4_of(joint.orientation_b));
     const auto place = double_float3_of(joint.body_a == no_body ? joint.position_a : joint.position_b);
     world_frame.insert(world_frame.end(), place.begin(), place.end());
+    limits.push_back({finite(joint.break_force), finite(joint.break_torque), 0, 0});
   }
   void stage(StagedUploads &uploads)
   {
@@ -137,6 +146,7 @@ struct JointRows {
     uploads.add(Buffer::joint_frame_a, std::move(frame_a));
     uploads.add(Buffer::joint_frame_b, std::move(frame_b));
     uploads.add(Buffer::joint_world_frame, std::move(world_frame));
+    uploads.add(Buffer::joint_break, std::move(limits));
   }
 
 private:
@@ -182,15 +192,42 @@ bool can_be_pushed(const Scene &scene, uint32_t body)
   return body != no_body && scene.bodies[body].type == BodyType::dynamic;
 }
 
+void stage_axes(StagedUploads &uploads, const Scene &scene, std::span<const uint32_t> joints, uint32_t axes)
+{
+  AxisRows rows(joints.size(), axes);
+  for (size_t i = 0; i < joints.size(); ++i) {
+    const std::vector<UsedAxis> used = axes_used_by(scene.joints[joints[i]]);
+    for (size_t k = 0; k < used.size(); ++k) rows.set(i, k, used[k]);
+  }
+  rows.stage(uploads);
+}
+
+void stage_axes_at(StagedUploads &uploads, const Joint &joint, uint32_t place, size_t joints)
+{
+  const std::vector<UsedAxis> used = axes_used_by(joint);
+  for (size_t k = 0; k < used.size(); ++k) {
+    const std::array<float4, 3> row = row_of_axis(used[k].axis);
+    for (size_t part = 0; part < row.size(); ++part)
+      uploads.add_elements(Buffer::joint_axis_row, std::vector<float4>{row[part]}, (3 * k + part) * joints + place);
+  }
+}
+
+Features features_of(const Joint &joint)
+{
+  Features features = FEATURE_JOINTS;
+  if (modes_of(joint) != JOINT_XYZ) features |= FEATURE_JOINT_FRAMES;
+  if (!axes_used_by(joint).empty()) features |= FEATURE_JOINT_AXES | FEATURE_JOINT_FRAMES;
+  if (bounces(joint)) features |= FEATURE_JOINT_BOUNCES;
+  if (can_break(joint)) features |= FEATURE_JOINT_BREAKS;
+  if (is_to_world(joint)) features |= FEATURE_JOINTS_TO_WORLD;
+  if (parts_bodies(joint)) features |= FEATURE_JOINED_PAIRS | FEATURE_FILTER;
+  return features;
+}
+
 Features joint_features(const Scene &scene)
 {
-  Features features = scene.joints.empty() ? 0 : FEATURE_JOINTS;
-  for (const Joint &joint : scene.joints) {
-    if (modes_of(joint) != JOINT_XYZ) features |= FEATURE_JOINT_FRAMES;
-    if (!axes_used_by(joint).empty()) features |= FEATURE_JOINT_AXES | FEATURE_JOINT_FRAMES;
-    if (is_to_world(joint)) features |= FEATURE_JOINTS_TO_WORLD;
-    else if (!joint.collide) features |= FEATURE_JOINED_PAIRS | FEATURE_FILTER;
-  }
+  Features features = 0;
+  for (const Joint &joint : scene.joints) features |= features_of(joint);
   return features;
 }
 

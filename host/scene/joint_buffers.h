@@ -17,6 +17,7 @@ namespace tandem {
 /* Whether joints push the body: not the world (no_body), nor what is fixed or kinematic. */
 bool can_be_pushed(const Scene &scene, uint32_t body);
 
+Features features_of(const Joint &joint);
 Features joint_features(const Scene &scene);
 
 /* JointGraph::axes. */
@@ -34,6 +35,12 @@ uint32_t joined_pair_entries(const Scene &scene, const JointGraph &graph, std::s
 /* joints: by their places. room: for bodies, in the buffers. */
 void stage_joints(StagedUploads &uploads, const Scene &scene, const JointGraph &graph, std::span<const uint32_t> joints,
                   std::span<const uint32_t> index_of_body, size_t room);
+
+/* Of these the axes alone. axes: JointGraph::axes. */
+void stage_axes(StagedUploads &uploads, const Scene &scene, std::span<const uint32_t> joints, uint32_t axes);
+
+/* The axes of one joint, which has the kinds of axes that it had. joints: how many there are. */
+void stage_axes_at(StagedUploads &uploads, const Joint &joint, uint32_t place, size_t joints);
 
 /* What changes as bodies move in the buffers: the bodies of the joints that are awake, which come first, and the table
  * of joined pairs. index_of_body: of each body of the scene. first_pair: of body_filter, where the table begins. */

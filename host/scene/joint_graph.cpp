@@ -12,6 +12,8 @@
 namespace tandem {
 namespace {
 
+constexpr uint32_t behind_all = COLOR_OVERFLOW + 1; /* the colour of joints that are not enabled */
+
 /* The colours in use at the bodies, as one word of 64 bits each. */
 class ColorsAtBodies {
 public:
@@ -56,7 +58,8 @@ JointGraph joint_graph_of(const Scene &scene, uint32_t worlds)
   std::vector<uint32_t> colors;
   graph.starts.assign(COLOR_ENTRIES, 0);
   for (const Joint &joint : scene.joints) {
-    const uint32_t color = colors.emplace_back(at_bodies.take(joint));
+    const uint32_t color = colors.emplace_back(joint.enabled ? at_bodies.take(joint) : behind_all);
+    if (!joint.enabled) continue;
     ++graph.starts[color + 1];
     graph.colors = std::max(graph.colors, color + 1);
   }

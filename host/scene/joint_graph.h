@@ -7,6 +7,8 @@
  *
  *   colour 0 | hinge hinge slider | colour 1 | ball hinge | ... | overflow
  *
+ * Joints that are not enabled have no colour and stand behind all others, where no kernel of a step looks.
+ *
  * The joints of one world of a batch have the colours and the order that they have alone. Overflow joints stand world
  * after world (shared/joints/by_world.h).
  */
@@ -21,7 +23,8 @@
 namespace tandem {
 
 struct JointGraph {
-  std::vector<uint32_t> order;       /* joints of the scene by colour; of one colour by type, then by number */
+  std::vector<uint32_t> order;       /* joints of the scene by colour; of one colour by type, then by number; those that
+                                        are not enabled last */
   std::vector<uint32_t> starts;      /* in that order: the first of each colour, of the overflow joints, and the end */
   std::vector<uint32_t> body_colors; /* two words a body of the scene: a bit for each colour in use */
   uint32_t colors = 0;               /* in use; COLOR_LIMIT + 1 if there are overflow joints */

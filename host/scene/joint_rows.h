@@ -1,6 +1,7 @@
 /* joint_rows.h - shared/joints.def as a table: the name of each type of joint, and what it locks. */
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -18,9 +19,16 @@ struct JointRow {
 TANDEM_API std::span<const JointRow> joint_rows(); /* in the order of the enum */
 TANDEM_API const JointRow &row_of(JointType type);
 
+/* A place of Scene::joints without a joint, as one that was destroyed leaves it. */
+inline bool is_vacant(const Joint &joint)
+{
+  return !joint.enabled && joint.body_a == no_body && joint.body_b == no_body;
+}
+
 /* What a joint holds: bits JOINT_X, JOINT_Y, JOINT_Z. */
 struct HeldAxes {
   uint32_t directions, rotations;
+  friend bool operator==(const HeldAxes &, const HeldAxes &) = default;
 };
 TANDEM_API HeldAxes held_by(const Joint &joint);
 
@@ -30,5 +38,11 @@ struct UsedAxis {
   JointAxis axis;
 };
 TANDEM_API std::vector<UsedAxis> axes_used_by(const Joint &joint);
+
+/* Whether y of frame b stays at right angles to x of frame a, and the joint turns about both. */
+inline bool crosses(JointType type) { return type == JointType::universal || type == JointType::wheel; }
+
+/* The kinds of all axes that the joint leaves free, three directions and three rotations; JOINT_AXIS_NONE: none. */
+std::array<uint32_t, 6> axis_kinds_of(const Joint &joint);
 
 } // namespace tandem

@@ -42,24 +42,6 @@ namespace {
 
 bool is_used(const JointAxis &axis) { return axis != JointAxis{}; }
 
-/* The kinds of the axes of a type: three directions, three rotations; JOINT_AXIS_NONE: the type has no such axis. */
-using Kinds = std::array<uint32_t, 6>;
-
-Kinds kinds_of(const Joint &joint)
-{
-  Kinds kinds{JOINT_AXIS_X, JOINT_AXIS_Y, JOINT_AXIS_Z, JOINT_AXIS_TWIST, JOINT_AXIS_SWING_Y, JOINT_AXIS_SWING_Z};
-  const HeldAxes held = held_by(joint);
-  for (uint32_t k = 0; k < 3; ++k) {
-    if ((held.directions >> k & 1u) != 0) kinds[k] = JOINT_AXIS_NONE;
-    if ((held.rotations >> k & 1u) != 0) kinds[k + 3] = JOINT_AXIS_NONE;
-  }
-  if (joint.type == JointType::distance)
-    kinds = {JOINT_AXIS_DISTANCE, JOINT_AXIS_NONE, JOINT_AXIS_NONE, JOINT_AXIS_NONE, JOINT_AXIS_NONE, JOINT_AXIS_NONE};
-  if (joint.type == JointType::cone_twist) kinds[4] = JOINT_AXIS_CONE, kinds[5] = JOINT_AXIS_NONE;
-  if (joint.type == JointType::universal) kinds[4] = kinds[5] = JOINT_AXIS_NONE;
-  return kinds;
-}
-
 std::array<const JointAxis *, 6> axes_of(const Joint &joint)
 {
   return {&joint.directions[0], &joint.directions[1], &joint.directions[2],
@@ -75,14 +57,30 @@ HeldAxes held_by(const Joint &joint)
   return {row.directions, row.rotations};
 }
 
+std::array<uint32_t, 6> axis_kinds_of(const Joint &joint)
+{
+  std::array<uint32_t, 6> kinds{JOINT_AXIS_X,     JOINT_AXIS_Y,       JOINT_AXIS_Z,
+                                JOINT_AXIS_TWIST, JOINT_AXIS_SWING_Y, JOINT_AXIS_SWING_Z};
+  const HeldAxes held = held_by(joint);
+  for (uint32_t k = 0; k < 3; ++k) {
+    if ((held.directions >> k & 1u) != 0) kinds[k] = JOINT_AXIS_NONE;
+    if ((held.rotations >> k & 1u) != 0) kinds[k + 3] = JOINT_AXIS_NONE;
+  }
+  if (joint.type == JointType::distance)
+    kinds = {JOINT_AXIS_DISTANCE, JOINT_AXIS_NONE, JOINT_AXIS_NONE, JOINT_AXIS_NONE, JOINT_AXIS_NONE, JOINT_AXIS_NONE};
+  if (joint.type == JointType::cone_twist) kinds[4] = JOINT_AXIS_CONE, kinds[5] = JOINT_AXIS_NONE;
+  if (crosses(joint.type)) kinds[3] = JOINT_AXIS_TURN, kinds[4] = JOINT_AXIS_SPIN, kinds[5] = JOINT_AXIS_NONE;
+  return kinds;
+}
+
 std::vector<UsedAxis> axes_used_by(const Joint &joint)
 {
-  const Kinds kinds = kinds_of(joint);
+  const std::array<uint32_t, 6> kinds = axis_kinds_of(joint);
   const auto axes = axes_of(joint);
   std::vector<UsedAxis> used;
   for (size_t k = 0; k < kinds.size(); ++k)
     if (kinds[k] != JOINT_AXIS_NONE && is_used(*axes[k])) used.push_back({kinds[k], *axes[k]});
-  if (joint.type == JointType::universal) {
+  if (crosses(joint.type)) {
     JointAxis held;
     held.lower = held.upper = 0;
     used.push_back({JOINT_AXIS_CROSS, held});
@@ -116,6 +114,11 @@ void check_position(const char *field, const Point &position, uint32_t body, con
   check.within(field, position, body == no_body ? farthest : double{longest_length});
 }
 
+void check_break(const char *field, float limit, const Checker &check)
+{
+  if (!(limit > 0)) check.fail(fmt::format("{} is {}; more than 0 is needed, or infinity", field, limit));
+}
+
 void check_axis(const std::string &field, const JointAxis &axis, const Checker &check)
 {
   const auto name = [&](const char *of) { return field + "." + of; };
@@ -130,6 +133,10 @@ void check_axis(const std::string &field, const JointAxis &axis, const Checker &
   check.at_least_zero(name("limit_stiffness").c_str(), axis.limit_stiffness);
   check.at_least_zero(name("limit_damping").c_str(), axis.limit_damping);
   check.at_least_zero(name("damping").c_str(), axis.damping);
+  if (!(axis.restitution >= 0 && axis.restitution <= 1))
+    check.fail(fmt::format("{} is {}; 0 to 1 is needed", name("restitution"), axis.restitution));
+  if (axis.restitution > 0 && (axis.limit_stiffness > 0 || axis.lower == axis.upper))
+    check.fail(fmt::format("{} is {}, which hard limits of a range alone have", name("restitution"), axis.restitution));
   if (axis.motor && (axis.stiffness > 0 || axis.damping > 0))
     check.fail(
         fmt::format("{} is a motor and has stiffness {} and damping {}; a motor has neither, because it holds its "
@@ -144,7 +151,7 @@ void check_axis(const std::string &field, const JointAxis &axis, const Checker &
 void check_range(const std::string &field, uint32_t kind, const JointAxis &axis, const Checker &check)
 {
   constexpr float half_turn = 3.1415927f;
-  const bool is_angle = kind == JOINT_AXIS_TWIST || kind == JOINT_AXIS_SWING_Y || kind == JOINT_AXIS_SWING_Z,
+  const bool is_angle = kind >= JOINT_AXIS_TWIST && kind < JOINT_AXIS_CONE,
              has_none = std::isinf(axis.lower) && std::isinf(axis.upper) && axis.lower < axis.upper;
   if (!has_none && axis.lower == axis.upper && !(std::abs(axis.lower) <= longest_length))
     check.fail(fmt::format("{} is held at {}, where nothing can be", field, axis.lower));
@@ -162,7 +169,7 @@ void check_axes(const Joint &joint, const Checker &check)
 {
   static constexpr const char *fields[] = {"directions[0]", "directions[1]", "directions[2]",
                                            "rotations[0]",  "rotations[1]",  "rotations[2]"};
-  const Kinds kinds = kinds_of(joint);
+  const std::array<uint32_t, 6> kinds = axis_kinds_of(joint);
   const auto axes = axes_of(joint);
   for (size_t k = 0; k < kinds.size(); ++k) {
     if (kinds[k] == JOINT_AXIS_NONE && is_used(*axes[k]))
@@ -182,15 +189,18 @@ void validate(const Scene &scene, const Joint &joint, size_t index, const std::s
     check.fail(fmt::format("unknown type; {} exist", names_of_types()));
   check_body("body_a", joint.body_a, scene, check);
   check_body("body_b", joint.body_b, scene, check);
+  if (is_vacant(joint)) return;
   if (joint.body_a == joint.body_b)
     check.fail(joint.body_a == no_body ? "it connects the world with itself; name body_a or body_b"
                                        : fmt::format("it connects body {} with itself", joint.body_a));
-  if (!moves(joint.body_a, scene) && !moves(joint.body_b, scene))
+  if (joint.enabled && !moves(joint.body_a, scene) && !moves(joint.body_b, scene))
     check.fail("neither of its bodies is dynamic, so it holds nothing; make one of them dynamic");
   check_position("position_a", joint.position_a, joint.body_a, check);
   check_position("position_b", joint.position_b, joint.body_b, check);
   check.unit("orientation_a", joint.orientation_a);
   check.unit("orientation_b", joint.orientation_b);
+  check_break("break_force", joint.break_force, check);
+  check_break("break_torque", joint.break_torque, check);
   const Axes none;
   if (joint.type != JointType::six_dof && (joint.held_directions != none || joint.held_rotations != none))
     check.fail(

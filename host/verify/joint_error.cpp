@@ -49,7 +49,7 @@ double angle_of(uint32_t rotations, const Eigen::Quaterniond &q)
   return 2 * std::atan2(std::hypot(q.y(), q.z()), std::hypot(q.x(), q.w()));
 }
 
-/* How far y of frame b is from the right angle to x of frame a that a universal joint holds. */
+/* How far y of frame b is from the right angle to x of frame a that universal joints and wheels hold. */
 double lean_across(const Eigen::Quaterniond &q)
 {
   const Eigen::Vector3d y = q * Eigen::Vector3d::UnitY();
@@ -62,13 +62,17 @@ std::vector<JointError> joint_errors(const Scene &scene, const PreciseBodies &st
 {
   std::vector<JointError> errors;
   for (const Joint &joint : scene.joints) {
+    if (!joint.enabled) {
+      errors.emplace_back();
+      continue;
+    }
     const HeldAxes held = held_by(joint);
     const JointFrame a = frame_of(joint.body_a, joint.position_a, joint.orientation_a, states),
                      b = frame_of(joint.body_b, joint.position_b, joint.orientation_b, states);
     const Eigen::Quaterniond back = a.axes.conjugate();
     const Eigen::Quaterniond turn = back * b.axes;
     errors.push_back({length_along(held.directions, back * (b.origin - a.origin)),
-                      joint.type == JointType::universal ? lean_across(turn) : angle_of(held.rotations, turn)});
+                      crosses(joint.type) ? lean_across(turn) : angle_of(held.rotations, turn)});
   }
   return errors;
 }

@@ -410,7 +410,7 @@ std::vector<uint32_t> World::Implementation::moved_bodies()
 }
 
 /* Makes room, tables and kernels for the new bodies, and moves the others to their new places. */
-void World::Implementation::lay_out_anew(const Arrival &arrival)
+void World::Implementation::lay_out_anew(const Arrival &arrival, const JointImpulses *impulses)
 {
   buffers.make_ready(sizes());
   if (settings.moved_bodies && statistics.steps > 0) moved_before = moved_bodies(); /* the list may lose its place */
@@ -430,6 +430,7 @@ void World::Implementation::lay_out_anew(const Arrival &arrival)
   stage_tables(uploads);
   stage_masses(uploads, scene, special.order);
   stage_arrival(uploads, arrival);
+  if (impulses) impulses->stage(uploads, joint_order.joints(), joint_graph.axes);
   stage_counts(uploads);
   uploads.prepare(memory);
   backup.drop();
@@ -444,12 +445,12 @@ void World::Implementation::lay_out_anew(const Arrival &arrival)
 }
 
 /* The same bodies with other features or shapes. */
-void World::Implementation::lay_out_anew(std::span<const uint32_t> restated)
+void World::Implementation::lay_out_anew(std::span<const uint32_t> restated, const JointImpulses *impulses)
 {
   Arrival nobody;
   nobody.restated.assign(restated.begin(), restated.end());
   nobody.median = special.median;
-  lay_out_anew(nobody);
+  lay_out_anew(nobody, impulses);
 }
 
 std::vector<uint32_t> World::Implementation::distinct_indices(const char *call, std::span<const BodyId> ids) const
@@ -465,9 +466,9 @@ std::vector<uint32_t> World::Implementation::distinct_indices(const char *call, 
 void World::Implementation::destroy(std::span<const BodyId> ids)
 {
   distinct_indices("destroy_bodies", ids);
-  refuse_joined("destroy_bodies", "it cannot be destroyed", slots_of("destroy_bodies", ids));
   if (ids.empty()) return;
   settle();
+  destroy_joints_in(joints_of_bodies(slots_of("destroy_bodies", ids)));
   wake_bodies(slots_of("destroy_bodies", ids), true);
   const std::vector<uint32_t> indices = distinct_indices("destroy_bodies", ids);
   buffers.make_ready(sizes());

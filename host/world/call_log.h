@@ -27,7 +27,7 @@
 namespace tandem {
 
 constexpr std::array<char, 8> recording_magic{'T', 'A', 'N', 'D', 'E', 'M', 'R', '\n'};
-constexpr uint64_t recording_format = 2;
+constexpr uint64_t recording_format = 3;
 
 enum class RecordedPart : uint8_t { header, snapshot, calls, end };
 
@@ -56,7 +56,11 @@ enum class RecordedCall : uint8_t {
   run,
   write,
   cast_rays_on_device, /* whose hits kernels of modules read */
-  cast_shapes_on_device
+  cast_shapes_on_device,
+  create_joints,
+  destroy_joints,
+  set_joints,
+  set_joint_axes
 };
 
 /* What is written after a step. */

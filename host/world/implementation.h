@@ -34,7 +34,9 @@
 #include "host/world/body_slots.h"
 #include "host/world/call_log.h"
 #include "host/world/commands.h"
+#include "host/world/joint_impulses.h"
 #include "host/world/joint_order.h"
+#include "host/world/joint_slots.h"
 #include "host/world/placed_backends.h"
 #include "host/world/queries.h"
 #include "host/world/shape_slots.h"
@@ -123,7 +125,7 @@ struct World::Implementation {
   };
   void step(const StepLimits &limits);
   void sleep_on();
-  void fall_asleep();
+  void end_step();
   void check_lost() const;
   void run_until_whole(const StepLimits &limits);
   void check_limits(const StepLimits &limits) const;
@@ -196,6 +198,7 @@ struct World::Implementation {
   void stage_roster(StagedUploads &uploads, const KeptState &state, std::span<const RosterChange> changes,
                     const std::vector<uint32_t> &index) const;
   std::shared_ptr<const KeptSleepers> keep_sleepers();
+  std::shared_ptr<const KeptJoints> keep_joints();
   void reorder_rows(const std::vector<uint32_t> &order);
   void take_sleepers(KeptSleepers &then);
   void put_back_sleepers(const KeptState &then);
@@ -219,6 +222,8 @@ struct World::Implementation {
   /* --- properties that change: properties.cpp -------------------------------------------------------------------- */
   void set_properties(std::span<const BodyId> ids, std::span<const BodyProperties> properties);
   void refuse_unbuilt(std::span<const uint32_t> slots, std::span<const Body> changed_bodies);
+  void refuse_idle_joints(std::span<const uint32_t> joints, std::span<const uint32_t> changed,
+                          std::span<const Body> changed_bodies);
   void write_properties(std::span<const uint32_t> slots);
   void forget_colors(std::span<const uint32_t> freed);
 
@@ -237,6 +242,28 @@ struct World::Implementation {
   /* --- joints: joints.cpp ---------------------------------------------------------------------------------------- */
   void stage_joint_tables(StagedUploads &uploads) const;
   void refuse_joined(const char *call, const char *why, std::span<const uint32_t> given) const;
+
+  /* --- joints that come, change and go: joint_calls.cpp ----------------------------------------------------------- */
+  class PlacedJoints;
+  void disturb_joined(std::span<const Joint> joints);
+  void put_joints(std::vector<Joint> joints, const JointSlots &slots_then, std::span<const uint32_t> changed);
+  bool fits_tables(const std::vector<Joint> &before, const JointGraph &graph) const;
+  void stage_joints_again(StagedUploads &uploads) const;
+  void write_joints(const JointImpulses &impulses);
+  std::vector<JointId> create_joints(std::span<const Joint> given);
+  void destroy_joints(std::span<const JointId> ids);
+  void destroy_joints_in(std::span<const uint32_t> destroyed);
+  std::vector<uint32_t> joints_of_bodies(std::span<const uint32_t> given) const;
+  void set_joints(std::span<const JointId> ids, std::span<const Joint> given);
+  void set_joint_axes(std::span<const JointId> ids, std::span<const JointAxisChange> changes);
+  void write_joint_axes(std::span<const uint32_t> changed, std::vector<Joint> joints);
+  void stage_changed_axes(StagedUploads &uploads, std::span<const uint32_t> changed) const;
+  void check_joined_bodies(const char *call, size_t entry, const Joint &joint) const;
+  std::vector<uint32_t> slots_of_joints(const char *call, std::span<const JointId> ids) const;
+  void take_broken_joints();
+
+  /* --- what joints do: joint_readings.cpp ------------------------------------------------------------------------- */
+  std::vector<JointReading> read_joints(std::span<const JointId> ids);
 
   /* --- shapes of bodies that come and go: shapes.cpp -------------------------------------------------------------- */
   std::vector<ShapeId> shapes_of(const BodyId &id);
@@ -268,8 +295,9 @@ struct World::Implementation {
   void note_kinds(std::span<const uint32_t> slots);
   std::vector<RosterChange> changes_of(const Arrival &arrival);
   void place_among_others(const Arrival &arrival);
-  void lay_out_anew(const Arrival &arrival);
-  void lay_out_anew(std::span<const uint32_t> restated = {}); /* bodies whose state the scene has */
+  void lay_out_anew(const Arrival &arrival, const JointImpulses *impulses = nullptr);
+  /* restated: bodies whose state the scene has; impulses: of the joints, if these are others than before. */
+  void lay_out_anew(std::span<const uint32_t> restated = {}, const JointImpulses *impulses = nullptr);
   void plan_layout(const Arrival &arrival, std::vector<uint32_t> order);
   void stage_arrival(StagedUploads &uploads, const Arrival &arrival) const;
 
@@ -329,6 +357,10 @@ struct World::Implementation {
   StepBuffers buffers;
   JointGraph joint_graph;
   JointOrder joint_order;
+  JointSlots joint_slots;
+  std::vector<JointBreak> joint_breaks;           /* of the last step */
+  uint64_t joints_number = 0, joints_numbers = 0; /* the number of the present joints, and of those so far */
+  std::shared_ptr<const KeptJoints> kept_joints;  /* the present ones, as states that are kept share them; or null */
   BodySlots slots;
   ShapeSlots shapes;
   std::set<uint32_t> made_shapes; /* of the scene, for a body alone */

@@ -26,7 +26,7 @@ JointOrder::JointOrder(const Scene &scene, const JointGraph &graph)
   const auto for_each_side = [&](const auto &visit) {
     for (uint32_t joint = 0; joint < scene.joints.size(); ++joint)
       for (const uint32_t body : {scene.joints[joint].body_a, scene.joints[joint].body_b})
-        if (body != no_body) visit(joint, body);
+        if (scene.joints[joint].enabled && body != no_body) visit(joint, body);
   };
   for_each_side([&](uint32_t, uint32_t body) { ++first_[body + 1]; });
   std::partial_sum(first_.begin(), first_.end(), first_.begin());

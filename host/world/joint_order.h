@@ -2,7 +2,7 @@
  *
  *   | colour 0 | colour 1 | ... | overflow | asleep |      kernels of a step run over the joints before those asleep
  *
- * A joint sleeps with its bodies. Those awake stand in the order of the graph (host/scene/joint_graph.h), and those
+ * A joint sleeps with its bodies; one that is not enabled sleeps always. Those awake stand in the order of the graph (host/scene/joint_graph.h), and those
  * asleep as they came. Falling asleep and waking cost what is awake or moves, and nothing that sleeps on.
  */
 #pragma once
@@ -20,6 +20,7 @@ namespace tandem {
 
 class JointOrder {
 public:
+  JointOrder() = default;
   JointOrder(const Scene &scene, const JointGraph &graph);
 
   std::span<const uint32_t> joints() const { return joints_; } /* by place */
@@ -28,7 +29,8 @@ public:
   const std::vector<uint32_t> &starts() const { return starts_; }
   /* As JointGraph::colors, of those awake. */
   uint32_t colors() const;
-  std::span<const uint32_t> of_body(uint32_t body) const;
+  uint32_t place_of(uint32_t joint) const { return place_[joint]; }
+  std::span<const uint32_t> of_body(uint32_t body) const; /* those that are enabled */
 
   /* Rows that move, all at once. */
   struct Moves {

@@ -14,6 +14,7 @@
 
 #include "host/pipeline/broadphases/broadphase.h"
 #include "host/scene/built.h"
+#include "host/scene/joint_buffers.h"
 #include "host/world/implementation.h"
 #include "host/world/placed_bodies.h"
 #include "shared/commands/command_codes.h"
@@ -128,7 +129,9 @@ void World::Implementation::set_properties(std::span<const BodyId> ids, std::spa
   std::vector<uint32_t> given;
   for (const BodyId &id : ids) given.push_back(slots.slot_of("set_properties", id));
   const ChangedBodies changed = changed_by(scene, settings, given, properties);
-  refuse_joined("set_properties", "its type cannot change", retyped_by(scene, changed));
+  if (is_batch()) refuse_joined("set_properties", "its type cannot change in a batch", retyped_by(scene, changed));
+  const std::vector<uint32_t> retyped = joints_of_bodies(retyped_by(scene, changed));
+  refuse_idle_joints(retyped, changed.slots, changed.bodies);
   if (ids.empty()) return;
   refuse_unbuilt(changed.slots, changed.bodies); /* before anything wakes */
   settle();                                      /* what was called before comes before */
@@ -147,10 +150,25 @@ void World::Implementation::set_properties(std::span<const BodyId> ids, std::spa
   placed.keep();
   ring.forget("properties of bodies were changed");
   forget_colors(freed);
+  if (!retyped.empty()) put_joints(scene.joints, joint_slots, retyped); /* bodies that move have other colours */
   if (settings.sleeping) recount_motion();
   for (const uint32_t slot : changed.slots)
     if (slots.status()[slot] != BodyStatus::quarantined)
       commands.add(slot, COMMAND_SET_MASS, mass_command_of(scene.bodies[slot]));
+}
+
+/* A joint needs a dynamic body. */
+void World::Implementation::refuse_idle_joints(std::span<const uint32_t> joints, std::span<const uint32_t> changed,
+                                               std::span<const Body> changed_bodies)
+{
+  if (joints.empty()) return;
+  const PlacedBodies tried(scene, changed, changed_bodies);
+  for (const uint32_t joint : joints)
+    if (scene.joints[joint].enabled && !can_be_pushed(scene, scene.joints[joint].body_a) &&
+        !can_be_pushed(scene, scene.joints[joint].body_b))
+      throw InputError(fmt::format("set_properties: joint {} would have no dynamic body; destroy it first, or set it "
+                                   "to be not enabled",
+                                   joint));
 }
 
 /* Throws InputError if the world with these bodies needs what the library is built without. */

@@ -102,7 +102,29 @@ private:
     else if (call <= RecordedCall::add_forces) make_body_call(call);
     else if (call <= RecordedCall::set_gravity) make_sleep_call(call);
     else if (call <= RecordedCall::go_back) make_state_call(call);
-    else make_module_call(call);
+    else if (call <= RecordedCall::cast_shapes_on_device) make_module_call(call);
+    else if (call <= RecordedCall::set_joint_axes) make_joint_call(call);
+    else reader_.fail(fmt::format("call {} is unknown", static_cast<unsigned>(call)));
+  }
+
+  void make_joint_call(RecordedCall call)
+  {
+    if (call == RecordedCall::create_joints) {
+      const auto joints = list<Joint>();
+      const auto ids = list<JointId>();
+      if (world_ && world_->create_joints(joints) != ids) other_result("create_joints");
+      return;
+    }
+    const auto ids = list<JointId>();
+    if (call == RecordedCall::destroy_joints) {
+      if (world_) world_->destroy_joints(ids);
+    } else if (call == RecordedCall::set_joints) {
+      const auto joints = list<Joint>();
+      if (world_) world_->set_joints(ids, joints);
+    } else {
+      const auto changes = list<JointAxisChange>();
+      if (world_) world_->set_joint_axes(ids, changes);
+    }
   }
 
   void make_roster_call(RecordedCall call)
@@ -213,13 +235,13 @@ private:
     if (call == RecordedCall::cast_rays_on_device) {
       const auto rays = list<Ray>();
       if (world_) world_->cast_rays_on_device(rays);
-    } else if (call == RecordedCall::cast_shapes_on_device) {
+    } else {
       const Shape shape = get_shape(reader_);
       const auto poses = list<Pose>();
       const auto displacements = list<Vec3>();
       const auto filter = reader_.get<QueryFilter>();
       if (world_) world_->cast_shapes_on_device(shape, poses, displacements, filter);
-    } else reader_.fail(fmt::format("call {} is unknown", static_cast<unsigned>(call)));
+    }
   }
 
   [[noreturn]] void other_result(const char *call) const

@@ -50,8 +50,12 @@ void World::Implementation::take_buffers(const SnapshotContents &contents)
                                    row_of(buffer).name, bytes.size(), memory.bytes(buffer)));
     else memory.upload(buffer, bytes.data(), bytes.size());
   }
-  for (const CarriedBuffer &carried : buffers.carried()) /* steps leave the rows of sleepers on both sides */
-    if (has_rows_of_sleepers(carried.now) && !contents.islands.empty() && memory.bytes(carried.now) > 0) {
+  /* Steps leave the rows of sleepers on both sides, and those of joints that are not enabled. */
+  const auto has_idle_rows = [&](Buffer buffer) {
+    return contents.islands.empty() ? has_rows_of_joints(row_of(buffer)) : has_rows_of_sleepers(buffer);
+  };
+  for (const CarriedBuffer &carried : buffers.carried())
+    if (has_idle_rows(carried.now) && memory.bytes(carried.now) > 0) {
       const size_t items = items_in_use(memory, carried.now, {bodies(), special.awake}, contents.pairs);
       const auto rows = memory.read<std::byte>(carried.now, items * item_bytes(carried.now));
       memory.upload(carried.previous, rows.data(), rows.size());
@@ -101,6 +105,7 @@ std::unique_ptr<World::Implementation> World::Implementation::made_of(SnapshotCo
                                                           std::move(contents.special), std::move(contents.slots),
                                                           contents.room, capacity, contents.forces},
                                                 placement, old ? &old->backends : nullptr);
+  world->joint_slots = std::move(contents.joint_slots);
   world->take_buffers(contents);
   world->take_islands(contents);
   world->shapes = std::move(contents.shapes);

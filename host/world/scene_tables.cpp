@@ -5,6 +5,8 @@
 #include <memory>
 #include <tuple>
 
+#include "host/scene/joint_rows.h"
+
 namespace tandem {
 namespace {
 
@@ -61,7 +63,8 @@ void SceneTables::add(const Scene &scene, Scene &all)
   if (tables_.empty() || !has_tables(tables_.back())) add_table(scene, all);
   table_of_.push_back(static_cast<uint32_t>(tables_.size() - 1));
   const auto first_body = static_cast<uint32_t>(all.bodies.size());
-  for (const Joint &joint : scene.joints) all.joints.push_back(renumbered(joint, 0, first_body));
+  for (const Joint &joint : scene.joints)
+    if (!is_vacant(joint)) all.joints.push_back(renumbered(joint, 0, first_body));
   first_joint_.push_back(all.joints.size());
   for (Body body : scene.bodies) {
     body.shape += tables_.back().first_shape;

@@ -20,6 +20,8 @@ public:
 
   uint32_t worlds() const { return static_cast<uint32_t>(table_of_.size()); }
   uint32_t materials(uint32_t world) const { return static_cast<uint32_t>(table(world).materials.size()); }
+  uint32_t first_joint(uint32_t world) const { return static_cast<uint32_t>(first_joint_[world]); }
+  uint32_t joints(uint32_t world) const { return static_cast<uint32_t>(first_joint_[world + 1] - first_joint_[world]); }
   uint32_t first_material(uint32_t world) const { return table(world).first_material; }
 
 private:

@@ -70,6 +70,7 @@ void World::Implementation::plan_joints() noexcept
 /* One of its bodies lies among the sleepers; the other one does, too, unless it cannot sleep. */
 bool World::Implementation::is_joint_asleep(uint32_t joint) const
 {
+  if (!scene.joints[joint].enabled) return true;
   const auto sleeps = [&](uint32_t body) { return body != no_body && index_of_body[body] >= special.awake; };
   return sleeps(scene.joints[joint].body_a) || sleeps(scene.joints[joint].body_b);
 }

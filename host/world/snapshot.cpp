@@ -9,6 +9,7 @@
 #include "host/runtime/interface/module.h"
 #include "host/runtime/parts.h"
 #include "host/scene/joint_buffers.h"
+#include "host/scene/joint_rows.h"
 #include "host/world/implementation.h"
 #include "host/world/snapshot_fields.h"
 #include "host/world/snapshot_scene.h"
@@ -20,6 +21,12 @@ template <Is<BodySlots::Slot> T, class Visit> auto visit_fields(T &record, const
 {
   auto &[generation] = record;
   return visit(generation);
+}
+
+template <Is<JointSlots::Slot> T, class Visit> auto visit_fields(T &record, const Visit &visit)
+{
+  auto &[generation, exists] = record;
+  return visit(generation, exists);
 }
 
 template <Is<ShapeSlots::Slot> T, class Visit> auto visit_fields(T &record, const Visit &visit)
@@ -183,6 +190,26 @@ BodySlots get_slots(ByteReader &reader, const Specialisation &special)
   auto queues = reader.get<BodySlots::Queues>();
   check_slots(reader, special, slots, status, queues);
   return {std::move(slots), std::move(status), std::move(queues)};
+}
+
+/* A free slot holds no joint, and waits in the queue once, unless its generations are used up. */
+JointSlots get_joint_slots(ByteReader &reader, const Scene &scene)
+{
+  auto slots = reader.get<std::vector<JointSlots::Slot>>();
+  auto queue = reader.get<std::vector<uint32_t>>();
+  if (slots.size() != scene.joints.size())
+    reader.fail(fmt::format("{} generations of {} joints", slots.size(), scene.joints.size()));
+  std::vector<bool> queued(slots.size());
+  for (size_t k = 0; k < slots.size(); ++k) {
+    if (slots[k].generation == 0) reader.fail("a joint has generation 0; generations begin with 1");
+    if (!slots[k].exists && !is_vacant(scene.joints[k])) reader.fail("a joint that was destroyed has a body");
+  }
+  for (const uint32_t slot : queue) {
+    if (slot >= slots.size() || slots[slot].exists || queued[slot])
+      reader.fail("the queue of free joints holds one that is not free");
+    queued[slot] = true;
+  }
+  return {std::move(slots), std::move(queue)};
 }
 
 /* Each handle names its body's slot, whose queue holds the slots of no body. */
@@ -364,6 +391,7 @@ SnapshotContents read_snapshot(std::span<const std::byte> bytes, const std::stri
   contents.scene = get_scene(reader);
   contents.special = get_special(reader, contents.scene);
   contents.slots = get_slots(reader, contents.special);
+  contents.joint_slots = get_joint_slots(reader, contents.scene);
   get_shapes(reader, contents);
   const auto islands = reader.get<uint64_t>(); /* one after the other: they are no list where they are written from */
   for (uint64_t k = 0; k < islands; ++k) reader.get(contents.islands.emplace_back());
@@ -447,6 +475,8 @@ std::vector<std::byte> World::Implementation::save(std::vector<std::byte> memory
   writer.put(slots.slots());
   writer.put(slots.status());
   writer.put(slots.queues());
+  writer.put(joint_slots.slots());
+  writer.put(joint_slots.queue());
   put_shapes(writer, shapes, made_shapes);
   writer.put(uint64_t{sleepers.islands()});
   for (const auto &[number, island] : sleepers.all()) writer.put(island);

@@ -4,6 +4,7 @@
  *   modules       names of Settings::extensions, whose functions the program gives again
  *   settings, scene, features in use
  *   bodies        their order in the buffers, their slots with generations and the queues of free ones
+ *   joints        their slots with generations and the queue of free ones
  *   shapes        the handles of shapes of bodies, and the shapes that belong to one body alone
  *   history       steps made, quarantined bodies, the first batch fault
  *   buffers       STATE and CACHE ones by name, as many items as are in use, and what modules keep for the scene
@@ -19,12 +20,13 @@
 #include "host/pipeline/substep_choice.h"
 #include "host/scene/specialise.h"
 #include "host/world/body_slots.h"
+#include "host/world/joint_slots.h"
 #include "host/world/shape_slots.h"
 #include "host/world/sleepers.h"
 
 namespace tandem {
 
-constexpr SealedKind snapshot_kind{{'T', 'A', 'N', 'D', 'E', 'M', 'S', '\n'}, 6, "snapshot"};
+constexpr SealedKind snapshot_kind{{'T', 'A', 'N', 'D', 'E', 'M', 'S', '\n'}, 7, "snapshot"};
 
 /* A buffer's items in use. */
 struct SavedBuffer {
@@ -38,6 +40,7 @@ struct SnapshotContents {
   Scene scene;
   Specialisation special; /* features: those that the scene has needed so far */
   BodySlots slots{0};
+  JointSlots joint_slots{0};
   std::vector<SleepingIsland> islands; /* in the order in which they fell asleep */
   std::vector<uint32_t> joint_order;   /* by place (host/world/joint_order.h); empty if nobody sleeps */
   ShapeSlots shapes;

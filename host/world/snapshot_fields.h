@@ -52,18 +52,30 @@ template <Is<Body> T, class Visit> auto visit_fields(T &record, const Visit &vis
 
 template <Is<JointAxis> T, class Visit> auto visit_fields(T &record, const Visit &visit)
 {
-  auto &[lower, upper, limit_stiffness, limit_damping, target_position, target_velocity, stiffness, damping, motor,
-         max_force, friction, max_speed] = record;
-  return visit(lower, upper, limit_stiffness, limit_damping, target_position, target_velocity, stiffness, damping,
-               motor, max_force, friction, max_speed);
+  auto &[lower, upper, limit_stiffness, limit_damping, restitution, target_position, target_velocity, stiffness,
+         damping, motor, max_force, friction, max_speed] = record;
+  return visit(lower, upper, limit_stiffness, limit_damping, restitution, target_position, target_velocity, stiffness,
+               damping, motor, max_force, friction, max_speed);
 }
 
 template <Is<Joint> T, class Visit> auto visit_fields(T &record, const Visit &visit)
 {
-  auto &[name, type, body_a, body_b, position_a, position_b, orientation_a, orientation_b, collide, held_directions,
-         held_rotations, directions, rotations] = record;
-  return visit(name, type, body_a, body_b, position_a, position_b, orientation_a, orientation_b, collide,
-               held_directions, held_rotations, directions, rotations);
+  auto &[name, type, enabled, body_a, body_b, position_a, position_b, orientation_a, orientation_b, collide,
+         break_force, break_torque, held_directions, held_rotations, directions, rotations] = record;
+  return visit(name, type, enabled, body_a, body_b, position_a, position_b, orientation_a, orientation_b, collide,
+               break_force, break_torque, held_directions, held_rotations, directions, rotations);
+}
+
+template <Is<JointId> T, class Visit> auto visit_fields(T &record, const Visit &visit)
+{
+  auto &[index, generation] = record;
+  return visit(index, generation);
+}
+
+template <Is<JointAxisChange> T, class Visit> auto visit_fields(T &record, const Visit &visit)
+{
+  auto &[axis, to] = record;
+  return visit(axis, to);
 }
 
 /* Extensions are functions of the program; snapshots name their modules. */

@@ -12,6 +12,7 @@
 #include "host/pipeline/scene_counts.h"
 #include "host/runtime/interface/floating_point.h"
 #include "host/world/implementation.h"
+#include "host/world/placed_joints.h"
 
 namespace tandem {
 
@@ -144,6 +145,14 @@ std::shared_ptr<const KeptSleepers> World::Implementation::keep_sleepers()
   return kept;
 }
 
+std::shared_ptr<const KeptJoints> World::Implementation::keep_joints()
+{
+  if (scene.joints.empty()) return nullptr;
+  if (!kept_joints || kept_joints->number != joints_number)
+    kept_joints = std::make_shared<const KeptJoints>(KeptJoints{joints_number, scene.joints, joint_slots});
+  return kept_joints;
+}
+
 void World::Implementation::keep_state()
 {
   if (ring.size() == 0) throw InputError("keep_state: there is no room for states; keep_states makes it");
@@ -156,6 +165,7 @@ void World::Implementation::keep_state()
   }
   state.slots = ring.shared(slots);
   state.shape_slots = ring.shared(shapes);
+  state.joints = keep_joints();
   if (settings.sleeping) state.sleepers = keep_sleepers();
   state.statistics = statistics;
   state.fault = fault;
@@ -330,25 +340,43 @@ void World::Implementation::go_back(uint32_t states)
   auto entries = entries_then(then);
   const std::span<RosterChange> changes = ring.changes_after(then.changes);
   StagedUploads uploads;
+  std::optional<JointSlots> joint_slots_then;
+  std::optional<PlacedJoints> joints_then;
   swap_bodies(scene, changes, true);
   try {
+    if (then.joints && then.joints->number != joints_number) {
+      joint_slots_then = then.joints->slots;
+      joints_then.emplace(*this, then.joints->joints);
+      stage_joints_again(uploads);
+    }
     stage_roster(uploads, then, changes, others_sleep ? sleepers_then->index_of_body : index_of_body);
     uploads.prepare(memory);
   } catch (...) {
     swap_bodies(scene, changes, false);
     throw;
   }
+  if (joints_then) {
+    joints_then->keep();
+    std::swap(joint_slots, *joint_slots_then);
+    joints_number = then.joints->number;
+    plan_joints();
+  }
   if (others_sleep) take_sleepers(*sleepers_then);
   take_roster(then, slots_then, shapes_then);
   scene_entries.swap(entries);
   for (const auto &[entry, value] : scene_entries) plan.known[static_cast<size_t>(entry)] = value;
   uploads.write(memory);
-  for (size_t i = 0; i < buffers.carried().size(); ++i) memory.put_back(buffers.carried()[i].now, then.buffers[i]);
+  for (size_t i = 0; i < buffers.carried().size(); ++i) {
+    const auto &[now, previous] = buffers.carried()[i];
+    memory.put_back(now, then.buffers[i]);
+    if (has_rows_of_joints(row_of(now))) memory.put_back(previous, then.buffers[i]); /* of those not enabled, too */
+  }
   if (then.sleepers) put_back_sleepers(then);
   forget_kept(memory);
   ring.rewind(states);
   set_elsewhere.clear();
   sleep_events.clear();
+  joint_breaks.clear();
   sleep_events_to_come.swap(sleep_events_then);
   plan.drowsy = then.drowsy;
   plan.substeps = then.substeps;

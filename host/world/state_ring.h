@@ -22,6 +22,7 @@
 #include "host/pipeline/substep_choice.h"
 #include "host/runtime/memory.h"
 #include "host/world/body_slots.h"
+#include "host/world/joint_slots.h"
 #include "host/world/shape_slots.h"
 #include "host/world/sleepers.h"
 
@@ -44,6 +45,13 @@ struct KeptSleepers {
   Sleepers sleepers;
 };
 
+/* The joints, and the handles that are valid. */
+struct KeptJoints {
+  uint64_t number; /* of this list of joints; each list has its own */
+  std::vector<Joint> joints;
+  JointSlots slots;
+};
+
 struct KeptState {
   std::vector<KeptBytes> buffers; /* in the order of the carried ones */
   Statistics statistics;
@@ -56,6 +64,7 @@ struct KeptState {
   size_t changes = 0; /* of the roster, so far */
   std::shared_ptr<const BodySlots> slots;
   std::shared_ptr<const ShapeSlots> shape_slots;
+  std::shared_ptr<const KeptJoints> joints;     /* null in worlds without joints */
   std::shared_ptr<const KeptSleepers> sleepers; /* null in worlds without Settings::sleeping */
 };
 

@@ -50,22 +50,24 @@ void World::Implementation::step(const StepLimits &limits)
   whole = true;
   idle = false;
   backends.note_step(statistics.steps);
-  if (settings.sleeping) fall_asleep();
+  end_step();
   if (automatic) end_timed_step();
   sleep_events = std::exchange(sleep_events_to_come, {});
   quiet_state = state;
   keep_state_of_step();
 }
 
-/* Rows move in place, so half of it cannot be undone. */
-void World::Implementation::fall_asleep()
+/* Joints break, and bodies fall asleep. Rows move in place, so half of it cannot be undone. */
+void World::Implementation::end_step()
 {
   try {
-    put_to_sleep();
+    take_broken_joints();
+    if (settings.sleeping) put_to_sleep();
   } catch (const std::exception &error) {
-    lost = fmt::format("bodies could not be put to sleep after step {} ({}); the world cannot go on, and restore() "
-                       "makes it what it was when it was saved",
-                       statistics.steps - 1, error.what());
+    lost =
+        fmt::format("joints could not break or bodies could not be put to sleep after step {} ({}); the world cannot "
+                    "go on, and restore() makes it what it was when it was saved",
+                    statistics.steps - 1, error.what());
     throw std::runtime_error(lost);
   }
 }
@@ -82,6 +84,7 @@ void World::Implementation::sleep_on()
   ++statistics.steps;
   idle = true;
   sleep_events.clear();
+  joint_breaks.clear();
   keep_state_of_step();
 }
 
@@ -173,6 +176,7 @@ void World::Implementation::undo(const Attempt &before) noexcept
 {
   turn_back();
   launches_ended = whole = false;
+  joint_breaks.clear();
   statistics = before.statistics;
   first_outgrown = before.first_outgrown;
   for (size_t i = before.quarantined; i < quarantined.size(); ++i) {

@@ -9,6 +9,7 @@
 #include "host/base/out_of_memory.h"
 #include "host/runtime/interface/floating_point.h"
 #include "host/scene/built.h"
+#include "host/scene/joint_buffers.h"
 
 namespace tandem {
 namespace {
@@ -24,6 +25,11 @@ void check_scenes(std::span<const Scene> scenes, uint32_t copies)
   if (scenes.empty() || copies == 0) throw InputError("worlds: 0 worlds; at least 1 is needed");
   for (size_t k = 0; k < scenes.size(); ++k) {
     validate(scenes[k], scenes[k].name);
+    if (joint_features(scenes[k]) & FEATURE_JOINT_BREAKS)
+      throw InputError(
+          fmt::format("worlds: scene {} ('{}') has a joint that can break; a batch of worlds has none, and a "
+                      "world alone has",
+                      k, scenes[k].name));
     if (scenes[k].bodies.size() != scenes.front().bodies.size())
       throw InputError(
           fmt::format("worlds: scene {} ('{}') has {} bodies and scene 0 has {}; the worlds of a batch have "
@@ -110,6 +116,21 @@ std::vector<BodyId> Worlds::Implementation::ids_of(const char *call, std::span<c
       throw InputError(
           fmt::format("{}: entry {}: body {} does not exist; worlds have {} bodies", call, ids.size(), body, bodies));
     ids.push_back({number * bodies + body, 1});
+  }
+  return ids;
+}
+
+/* The same of joints. */
+std::vector<JointId> Worlds::Implementation::ids_of(const char *call, std::span<const WorldJoint> given) const
+{
+  std::vector<JointId> ids;
+  ids.reserve(given.size());
+  for (const auto &[number, joint] : given) {
+    check_world(call, number);
+    if (joint >= tables.joints(number))
+      throw InputError(fmt::format("{}: entry {}: joint {} does not exist; world {} has {} joints", call, ids.size(),
+                                   joint, number, tables.joints(number)));
+    ids.push_back({tables.first_joint(number) + joint, 1});
   }
   return ids;
 }
@@ -218,6 +239,16 @@ void Worlds::add_forces(std::span<const WorldBody> bodies, std::span<const Force
 {
   implementation_->world->add_forces(implementation_->ids_of("add_forces", bodies), forces);
   for (const WorldBody &body : bodies) implementation_->forced[body.world] = true;
+}
+
+void Worlds::set_joint_axes(std::span<const WorldJoint> joints, std::span<const JointAxisChange> changes)
+{
+  implementation_->world->set_joint_axes(implementation_->ids_of("set_joint_axes", joints), changes);
+}
+
+std::vector<JointReading> Worlds::read_joints(std::span<const WorldJoint> joints)
+{
+  return implementation_->world->read_joints(implementation_->ids_of("read_joints", joints));
 }
 
 void Worlds::set_properties(std::span<const WorldBody> bodies, std::span<const BodyProperties> properties)

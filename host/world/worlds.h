@@ -29,6 +29,7 @@ struct Worlds::Implementation {
   /* --- numbers of worlds and bodies --- */
   void check_world(const char *call, uint32_t number) const;
   std::vector<BodyId> ids_of(const char *call, std::span<const WorldBody> given) const;
+  std::vector<JointId> ids_of(const char *call, std::span<const WorldJoint> given) const;
   WorldPlace place_of(uint32_t number) const;
   uint64_t steps(uint32_t number) const { return engine().statistics.steps - started[number]; }
   Scene scene(uint32_t number) const;

@@ -33,6 +33,7 @@ SHARED void begin_step_item(GLOBAL uint *counts, uint i)
   counts[COUNT_SLEEPER_PAIRS_NEEDED] = 0u;
   counts[COUNT_TOUCHED_SLEEPERS] = 0u;
   counts[COUNT_DROWSY] = 0u;
+  counts[COUNT_BROKEN_JOINTS] = 0u;
   counts[COUNT_ISLAND_ROUNDS] = 0u;
   counts[COUNT_ISLANDS_OPEN] = 0u;
   counts[COUNT_FALLING_ASLEEP] = 0u;

@@ -29,7 +29,7 @@ typedef struct {
   uint_lanes kind;
   real lower, upper, target, target_speed;
   real stiffness, damping, largest_force, friction;
-  real limit_stiffness, limit_damping, largest_speed;
+  real limit_stiffness, limit_damping, largest_speed, restitution;
 } joint_axis;
 
 /* Axis k of all joints is a plane of kinds, and three of numbers. */
@@ -51,7 +51,8 @@ SHARED joint_axis load_axis(GLOBAL const Parameters *parameters, read_joint_axes
                   drive.w,
                   limit.x,
                   limit.y,
-                  limit.z};
+                  limit.z,
+                  limit.w};
   return a;
 }
 

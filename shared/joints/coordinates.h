@@ -8,8 +8,12 @@
  *                 \ | / cone          cone     the angle between the axes x, 0 .. pi
  *                  \|/
  *
- * After Dobrowolski, "Swing-twist decomposition in Clifford algebra", 2015. A universal joint keeps the axis y of frame
- * b at right angles to x of frame a; its coordinate, `cross`, is 0.
+ * After Dobrowolski, "Swing-twist decomposition in Clifford algebra", 2015. Universal joints and wheels keep the axis y of
+ * frame b at right angles to x of frame a; that coordinate, `cross`, is 0. They turn about both without end:
+ *
+ *        x of a ^    ,y of b           turn     of y of b about x of a: a wheel is steered
+ *               |  ,/                  spin     about y of b: it rolls
+ *               |,/
  */
 #ifndef TANDEM_SHARED_JOINTS_COORDINATES_H
 #define TANDEM_SHARED_JOINTS_COORDINATES_H
@@ -111,6 +115,34 @@ SHARED joint_coordinate cross_coordinate(joint_frames f)
   return c;
 }
 
+/* The angle of a vector about an axis, of its two parts across the axis: value, and the turn that changes it, along the
+ * axis and these. */
+SHARED joint_coordinate angle_about_axis(real along, real first, real second)
+{
+  real squared = first * first + second * second;
+  mask defined = squared > LEAST_SWING;
+  real share = zero_if(!defined, along / choose(defined, squared, (real)R(1.0)));
+  vec3 none = make_vec3(R(0.0), R(0.0), R(0.0));
+  joint_coordinate c = {arc_tangent(second, first), none, make_vec3(R(1.0), -share * first, -share * second)};
+  return c;
+}
+
+/* y of frame b about x of frame a. */
+SHARED joint_coordinate turn_coordinate(joint_frames f)
+{
+  vec3 y = axis_y(rotation_of(f.relative));
+  return angle_about_axis(y.x, y.y, y.z);
+}
+
+/* x of frame a as seen from b, about y of frame b, the other way round. */
+SHARED joint_coordinate spin_coordinate(joint_frames f)
+{
+  mat3 b = rotation_of(f.relative);
+  joint_coordinate c = angle_about_axis(axis_y(b).x, axis_x(b).x, axis_z(b).x);
+  c.turn = rotate(b, make_vec3(c.turn.y, c.turn.x, c.turn.z));
+  return c;
+}
+
 SHARED mask is_rotation(uint_lanes kind)
 {
   return (kind >= (uint_lanes)(uint)JOINT_AXIS_TWIST) & (kind <= (uint_lanes)(uint)JOINT_AXIS_CONE);
@@ -130,6 +162,9 @@ SHARED joint_coordinate coordinate_of(joint j, joint_frames f, uint_lanes kind)
   if (any_of(is_distance)) c = choose_coordinate(is_distance, distance_coordinate(j, f), c);
   if (any_of(turns | crosses)) {
     joint_coordinate r = rotation_coordinate(f, kind);
+    mask steers = kind == (uint_lanes)(uint)JOINT_AXIS_TURN, spins = kind == (uint_lanes)(uint)JOINT_AXIS_SPIN;
+    if (any_of(steers)) r = choose_coordinate(steers, turn_coordinate(f), r);
+    if (any_of(spins)) r = choose_coordinate(spins, spin_coordinate(f), r);
     if (any_of(crosses)) r = choose_coordinate(crosses, cross_coordinate(f), r);
     r.turn = rotate(f.axes, r.turn);
     c = choose_coordinate(turns | crosses, r, c);

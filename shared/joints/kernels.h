@@ -4,11 +4,13 @@
 #ifndef TANDEM_SHARED_JOINTS_KERNELS_H
 #define TANDEM_SHARED_JOINTS_KERNELS_H
 
+#include "shared/joints/bounce.h"
 #include "shared/joints/prepare.h"
 #include "shared/joints/solve.h"
 #ifndef TANDEM_LANES /* ITEM kernels take one item at a time */
 #include "shared/joints/by_world.h"
 #include "shared/joints/driven.h"
+#include "shared/joints/loads.h"
 #include "shared/joints/overflow.h"
 #endif
 

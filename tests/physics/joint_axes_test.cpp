@@ -232,6 +232,94 @@ TEST_CASE("joint axes: a universal joint turns about its two axes and holds the 
   CHECK(twist_speed > 0.5);
 }
 
+TEST_CASE("joint axes: what arrives at a limit leaves it with its restitution's share of the speed", "[physics]")
+{
+  for (const JointType type : {JointType::slider, JointType::hinge, JointType::distance})
+    for (const double restitution : {0.0, 0.5, 1.0}) {
+      CAPTURE(name_of_type(type), restitution);
+      const bool turns = type == JointType::hinge;
+      Scene scene = empty_scene({0, 0, 0});
+      Body &body = add_body(scene, BodyType::dynamic, box_shape(0.2f, 0.2f, 0.2f), {1, 0, 0});
+      (turns ? body.angular_velocity : body.linear_velocity) = {3, 0, 0};
+      Joint joint;
+      joint.type = type;
+      joint.body_b = 0;
+      if (type != JointType::distance) joint.position_a = {1, 0, 0};
+      const float from = type == JointType::distance ? 0.5f : -0.5f, to = type == JointType::distance ? 1.7f : 0.7f;
+      JointAxis &axis = turns ? joint.rotations[0] : joint.directions[0];
+      axis = {.lower = from, .upper = to, .restitution = float(restitution)};
+      scene.joints.push_back(joint);
+      World world(scene, {}, {"serial", {}, false});
+      const auto speed = [&] {
+        const BodyState state = world.bodies()[0];
+        return double((turns ? state.angular_velocity : state.linear_velocity)[0]);
+      };
+      run(world, 30);
+      CHECK(speed() == Approx(-3 * restitution).margin(0.02));
+      run(world, 60); /* the other limit */
+      if (restitution > 0.4) CHECK(std::abs(speed()) <= 3 * restitution + 0.02);
+      if (restitution == 1) CHECK(std::abs(speed()) == Approx(3).margin(0.05));
+    }
+}
+
+/* Both angles of a universal joint, from where the axes are: y of the body about x of the world, and about y. */
+std::pair<double, double> angles_of_cross(World &world)
+{
+  const Matrix axes = axes_of(world.bodies()[0].orientation);
+  return {std::atan2(axes(2, 1), axes(1, 1)), std::atan2(axes(0, 2), axes(0, 0))};
+}
+
+TEST_CASE("joint axes: limits of a universal joint stop both turns at their angles, however far the other is",
+          "[physics]")
+{
+  const double first = GENERATE(0.4, 1.4, 2.5), second = GENERATE(0.3, 1.3, 2.9);
+  CAPTURE(first, second);
+  Held held(JointType::universal);
+  held.body().angular_velocity = {3, 2, 0};
+  held.joint.rotations = {};
+  held.joint.rotations[0] = {.lower = -0.1f, .upper = float(first)};
+  held.joint.rotations[1] = {.lower = -0.1f, .upper = float(second)};
+  World world = held.world();
+  double widest_turn = 0, widest_spin = 0;
+  for (int k = 0; k < 360; ++k) {
+    world.step();
+    const auto [turn, spin] = angles_of_cross(world);
+    widest_turn = std::max(widest_turn, turn);
+    widest_spin = std::max(widest_spin, spin);
+  }
+  CHECK(widest_turn == Approx(first).margin(0.02));
+  CHECK(widest_spin == Approx(second).margin(0.02));
+}
+
+TEST_CASE("joint axes: a wheel rests on its spring, stays where it is steered, and a motor spins it up", "[physics]")
+{
+  Scene scene = empty_scene();
+  Body &wheel = add_body(scene, BodyType::dynamic, cylinder_shape(0.3f, 0.1f), {0, 0, 0});
+  wheel.mass = 8;
+  Joint joint;
+  joint.type = JointType::wheel;
+  joint.body_b = 0;
+  joint.orientation_a = turn_about(Vector::UnitZ(), pi / 2); /* x, the suspension, points up */
+  joint.orientation_b = turn_about(Vector::UnitZ(), 0);      /* y is the axle, along which the cylinder lies */
+  const double torque = 6, steering = 0.3, stiffness = 2000;
+  joint.orientation_a = quat_of(turn_of_x_to(Vector::UnitY()));
+  joint.directions[0] = {.stiffness = float(stiffness), .damping = 200};
+  joint.rotations[0].lower = joint.rotations[0].upper = float(steering);
+  joint.rotations[1] = {.target_velocity = 1000, .motor = true, .max_force = float(torque)};
+  scene.bodies[0].orientation =
+      quat_of(eigen_of(joint.orientation_a) * Eigen::Quaterniond(Eigen::AngleAxisd(steering, Vector::UnitX())));
+  scene.joints.push_back(joint);
+  World world(scene, {}, {"serial", {}, false});
+  run(world, 300);
+  const JointReading reading = world.read_joint(world.id_of_joint(0));
+  const double inertia = moments_of(scene, scene.bodies[0]).y(), seconds = 5;
+  CHECK(reading.directions[0] == Approx(-8 * gravity / stiffness).epsilon(0.01));
+  CHECK(reading.rotations[0] == Approx(steering).margin(2e-3));
+  CHECK(reading.rotation_speeds[1] == Approx(torque / inertia * seconds).epsilon(0.01));
+  CHECK(open_joints(world).max_angle < 2e-3);
+  CHECK(open_joints(world).max_distance < 1e-4);
+}
+
 TEST_CASE("joint axes: a joint of six degrees of freedom that holds all but one is a slider or a hinge", "[physics]")
 {
   Held six(JointType::six_dof, {10, -10, 3}), slider(JointType::slider, {10, -10, 3});

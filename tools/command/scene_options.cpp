@@ -75,6 +75,8 @@ SceneOptions::SceneOptions(CLI::App &parser, bool one_backend) : one_backend_(on
   option("--substeps", substeps_,
          "substeps of a step, or auto: as many as loads and stacks need; what the solver wants if not given", "N");
   option("--iterations", iterations_, "solver passes of a substep; what the solver wants if not given", "N");
+  option("--joint-hertz", joint_hertz_,
+         "frequency of soft joints; at most a quarter of the substep rate is used; 60 if not given", "HZ");
   option("--solver", solver_, one_of("solver", choice_names<Solver>()), "NAME");
   option("--broadphase", broadphase_,
          one_of("broadphase", choice_names<Broadphase>()) + "; auto: as the scene suggests (`tandem plan` says why)",
@@ -126,6 +128,7 @@ Settings SceneOptions::settings() const
   if (!substeps_.empty()) settings.substeps = substeps_of(substeps_);
   if (!iterations_.empty())
     settings.iterations = static_cast<uint32_t>(whole_number("--iterations", iterations_, 1, 1000));
+  if (!joint_hertz_.empty()) settings.joint_hertz = static_cast<float>(real_number("--joint-hertz", joint_hertz_));
   settings.broadphase = parse_setting<Broadphase>(broadphase_);
   settings.bounds = parse_setting<Bounds>(bounds_);
   settings.midphase = parse_setting<Midphase>(midphase_);
@@ -188,6 +191,7 @@ std::string SceneOptions::typed_again(const std::string &broadphase) const
   add("--dt", step_, "1/60");
   add("--substeps", substeps_, "");
   add("--iterations", iterations_, "");
+  add("--joint-hertz", joint_hertz_, "");
   add("--solver", solver_, name_of(defaults.solver));
   add("--broadphase", broadphase, name_of(defaults.broadphase));
   add("--bounds", bounds_, name_of(defaults.bounds));

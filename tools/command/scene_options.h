@@ -44,7 +44,7 @@ public:
 private:
   const bool one_backend_;
   const CLI::Option *steps_option_ = nullptr;
-  std::string scene_, on_ = "tbb", place_, steps_ = "120", step_, substeps_, iterations_;
+  std::string scene_, on_ = "tbb", place_, steps_ = "120", step_, substeps_, iterations_, joint_hertz_;
   std::string solver_, broadphase_, bounds_, midphase_, narrowphase_, support_, support_cells_, batching_, max_pairs_;
   bool no_specialise_ = false, sleep_ = false, inexact_ = false, check_ = false, events_ = false,
        outside_files_ = false;

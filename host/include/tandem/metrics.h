@@ -22,7 +22,7 @@ using PreciseBodies = std::vector<PreciseBodyState>; /* in the order of Scene::b
 TANDEM_API double angle_between(const std::array<double, 4> &one, const std::array<double, 4> &other);
 
 /* How far a joint is open: between the origins of its frames along the directions that it holds, and by the rotations
- * that it holds. */
+ * that it holds; 0 if it is not enabled. */
 struct JointError {
   double distance = 0; /* m */
   double angle = 0;    /* rad */

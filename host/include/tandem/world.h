@@ -287,6 +287,39 @@ public:
   std::vector<ShapeId> shapes_of(const BodyId &id);
   BodyId body_of(const ShapeId &id) const;
 
+  /* --- joints at run time (<tandem/joints.h>) ---
+   * As with bodies, each call takes effect completely or not at all, and InputError names the first entry at fault.
+   * Bodies of joints that a call makes, changes or destroys wake. All but the changes of axes colour the joints of the
+   * world anew, which takes time for each of them, so many changes should be one call. */
+
+  JointId id_of_joint(uint32_t joint) const; /* of the joint with this index in Scene::joints */
+  bool exists(const JointId &id) const;
+  std::vector<JointId> joint_ids() const; /* of all that exist, in the order of their indices */
+
+  /* Adds joints, which validate() checks. */
+  std::vector<JointId> create_joints(std::span<const Joint> joints);
+  JointId create_joint(const Joint &joint) { return create_joints(std::span(&joint, 1)).front(); }
+  /* What is left in scene() is a joint without bodies that is not enabled. A body that is destroyed takes its joints
+   * with it. */
+  void destroy_joints(std::span<const JointId> ids);
+  void destroy_joint(const JointId &id) { destroy_joints(std::span(&id, 1)); }
+  /* Makes joints what is given: frames, limits, drives, whether they are enabled, and all else. A joint keeps its
+   * impulses if it has the bodies, the type and the kinds of axes that it had. */
+  void set_joints(std::span<const JointId> ids, std::span<const Joint> joints);
+  void set_joint(const JointId &id, const Joint &joint) { set_joints(std::span(&id, 1), std::span(&joint, 1)); }
+  /* Changes axes: targets of motors and springs, limits, friction. Cheap where an axis was limited, driven or braked
+   * before and is so afterwards; else as set_joints. */
+  void set_joint_axes(std::span<const JointId> ids, std::span<const JointAxisChange> changes);
+  void set_joint_axis(const JointId &id, uint32_t axis, const JointAxis &to)
+  {
+    const JointAxisChange change{axis, to};
+    set_joint_axes(std::span(&id, 1), std::span(&change, 1));
+  }
+  std::vector<JointReading> read_joints(std::span<const JointId> ids);
+  JointReading read_joint(const JointId &id) { return read_joints(std::span(&id, 1)).front(); }
+  /* Those that broke in the last step, in the order of their indices. */
+  const std::vector<JointBreak> &joint_breaks() const;
+
   std::vector<BodyState> read_bodies(std::span<const BodyId> ids);
   BodyState read_body(const BodyId &id) { return read_bodies(std::span(&id, 1)).front(); }
   void set_states(std::span<const BodyId> ids, std::span<const BodyState> states);

@@ -43,6 +43,11 @@ struct WorldBody {
   uint32_t world, body;
 };
 
+/* A joint of a batch: `joint` is its index in the scene of its world. */
+struct WorldJoint {
+  uint32_t world, joint;
+};
+
 /* The events of all worlds; their bodies are numbered as in the scenes of the worlds. */
 template <class Event> struct WorldEvents {
   std::vector<Event> all;    /* world after world */
@@ -108,6 +113,11 @@ public:
   }
   /* Does the same without a check, so that tests can set a NaN. */
   void set_state_unchecked(const WorldBody &body, const BodyState &state);
+
+  /* The same with an entry for each joint. Axes keep their kind: one that was neither limited, driven nor braked is not
+   * from then on, because the tables of a batch have no room for it. */
+  void set_joint_axes(std::span<const WorldJoint> joints, std::span<const JointAxisChange> changes);
+  std::vector<JointReading> read_joints(std::span<const WorldJoint> joints);
 
   /* Of the last step, as those of World; a world that was reset since has none. */
   WorldEvents<ContactEvent> contact_events();

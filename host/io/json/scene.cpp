@@ -80,6 +80,9 @@ template <typename Field> void each_field(const Joint *, Field &&field)
   field("position_b", &Joint::position_b);
   field("orientation_b", &Joint::orientation_b);
   field("collide", &Joint::collide);
+  field("enabled", &Joint::enabled);
+  field("break_force", &Joint::break_force);
+  field("break_torque", &Joint::break_torque);
   field("held_directions", &Joint::held_directions);
   field("held_rotations", &Joint::held_rotations);
   field("directions", &Joint::directions);
@@ -92,6 +95,7 @@ template <typename Field> void each_field(const JointAxis *, Field &&field)
   field("upper", &JointAxis::upper);
   field("limit_stiffness", &JointAxis::limit_stiffness);
   field("limit_damping", &JointAxis::limit_damping);
+  field("restitution", &JointAxis::restitution);
   field("target_position", &JointAxis::target_position);
   field("target_velocity", &JointAxis::target_velocity);
   field("stiffness", &JointAxis::stiffness);

@@ -52,7 +52,10 @@ void launch_soft_step_substep(StepLaunches &step, MassSplit &overflow, uint32_t 
   warm_start_rolling(step);
   solve_in_turns(step, overflow, passes_of(step, substep));
   step.move_bodies();
-  solve(step, overflow, substep + 1 < step.settings().substeps ? PASS_RELAXING : PASS_LAST);
+  const bool last = substep + 1 == step.settings().substeps;
+  solve(step, overflow, last ? PASS_LAST : PASS_RELAXING);
+  if (step.has(FEATURE_JOINT_BOUNCES)) step.run(Kernel::follow_limits, {0});
+  if (step.has(FEATURE_JOINT_BREAKS)) step.run(Kernel::measure_joint_loads, {substep, last});
 }
 
 } // namespace
@@ -61,9 +64,12 @@ void launch_soft_step(StepLaunches &step)
 {
   MassSplit overflow = MassSplit::overflow_of(step);
   overflow.prepare();
+  if (step.has(FEATURE_JOINT_BOUNCES)) step.run(Kernel::follow_limits, {1});
   for (uint32_t substep = 0; substep < step.settings().substeps; ++substep)
     launch_soft_step_substep(step, overflow, substep);
   apply_restitution(step, overflow);
+  if (step.has(FEATURE_JOINT_BOUNCES))
+    step.for_each_joint_color(Kernel::bounce_at_limits, Kernel::bounce_at_overflow_limits);
 }
 
 } // namespace tandem

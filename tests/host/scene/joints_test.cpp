@@ -124,6 +124,11 @@ TEST_CASE("axes that no joint can have are refused, with the axis")
   check_joint_refused("an angle has both limits", spoil_axis([](JointAxis &a) { a.lower = -1; }));
   check_joint_refused("an angle has both limits", spoil_axis([](JointAxis &a) { a.lower = 3, a.upper = 4; }));
   check_joint_refused("limit_damping is 1 without", spoil_axis([](JointAxis &a) { a.limit_damping = 1; }));
+  check_joint_refused("restitution is 1.5; 0 to 1 is needed", spoil_axis([](JointAxis &a) { a.restitution = 1.5f; }));
+  check_joint_refused("which hard limits of a range alone have", spoil_axis([](JointAxis &a) {
+                        a.restitution = 0.5f;
+                        a.limit_stiffness = 10;
+                      }));
   check_joint_refused("where nothing can be", [](Joint &j) {
     j.type = JointType::slider;
     j.directions[0].lower = j.directions[0].upper = JointAxis::unlimited;
@@ -132,10 +137,15 @@ TEST_CASE("axes that no joint can have are refused, with the axis")
     j.type = JointType::distance;
     j.directions[0].upper = -1;
   });
-  check_joint_refused("rotations[1] is not free in a joint of type universal", [](Joint &j) {
+  check_joint_refused("rotations[2] is not free in a joint of type universal", [](Joint &j) {
     j.type = JointType::universal;
-    j.rotations[1].friction = 1;
+    j.rotations[2].friction = 1;
   });
+  check_joint_refused("directions[1] is not free in a joint of type wheel", [](Joint &j) {
+    j.type = JointType::wheel;
+    j.directions[1].friction = 1;
+  });
+  check_joint_refused("break_torque is -1; more than 0 is needed, or infinity", [](Joint &j) { j.break_torque = -1; });
   check_joint_refused("are of a six_dof joint", [](Joint &j) { j.held_rotations.y = true; });
   check_joint_refused("x without y and z", [](Joint &j) {
     j.type = JointType::six_dof;
