@@ -270,7 +270,7 @@ void World::Implementation::stage_tables(StagedUploads &uploads)
   stage_trees(uploads, scene, trees, special.order, plan.bodies, slots.status());
   trees = {trees.sizes, {}, {}, {}, {}, {}, {}, {}, {}}; /* the buffers hold the rest */
   stage_materials(uploads, scene);
-  stage_joint_tables(uploads);
+  stage_joint_tables(uploads, special.order);
   uploads.add(Buffer::parameters, std::vector<Parameters>{parameters_now()});
   uploaded_shapes = scene.shapes.size();
   uploaded_materials = scene.materials.size();

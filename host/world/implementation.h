@@ -240,7 +240,7 @@ struct World::Implementation {
   void take_joint_order(std::vector<uint32_t> joints);
 
   /* --- joints: joints.cpp ---------------------------------------------------------------------------------------- */
-  void stage_joint_tables(StagedUploads &uploads) const;
+  void stage_joint_tables(StagedUploads &uploads, std::span<const uint32_t> order) const;
   void refuse_joined(const char *call, const char *why, std::span<const uint32_t> given) const;
 
   /* --- joints that come, change and go: joint_calls.cpp ----------------------------------------------------------- */
@@ -248,7 +248,7 @@ struct World::Implementation {
   void disturb_joined(std::span<const Joint> joints);
   void put_joints(std::vector<Joint> joints, const JointSlots &slots_then, std::span<const uint32_t> changed);
   bool fits_tables(const std::vector<Joint> &before, const JointGraph &graph) const;
-  void stage_joints_again(StagedUploads &uploads) const;
+  void stage_joints_again(StagedUploads &uploads, std::span<const uint32_t> order) const;
   void write_joints(const JointImpulses &impulses);
   std::vector<JointId> create_joints(std::span<const Joint> given);
   void destroy_joints(std::span<const JointId> ids);

@@ -111,6 +111,7 @@ void World::Implementation::put_joints(std::vector<Joint> joints, const JointSlo
   placed.keep();
   joint_slots = std::move(new_slots);
   joints_number = ++joints_numbers;
+  if (!sleepers.empty()) set_of_sleepers = ++sets_of_sleepers; /* their joints may have other places */
   if (!fits) ring.forget("joints came that the buffers had no room or no tables for");
   const std::vector<uint32_t> recolored = bodies_with_new_colors(placed.graph_before(), joint_graph);
   wake_bodies(recolored, false);
@@ -131,9 +132,9 @@ bool World::Implementation::fits_tables(const std::vector<Joint> &before, const 
 }
 
 /* All that tells kernels of joints, while the buffers stay as they are. */
-void World::Implementation::stage_joints_again(StagedUploads &uploads) const
+void World::Implementation::stage_joints_again(StagedUploads &uploads, std::span<const uint32_t> order) const
 {
-  stage_joint_tables(uploads);
+  stage_joint_tables(uploads, order);
   for (const auto &[entry, value] : joint_entries_of(joint_order.starts()))
     uploads.add_count(static_cast<uint32_t>(entry), value);
   uploads.add(Buffer::parameters, std::vector<Parameters>{parameters_now()});
@@ -142,7 +143,7 @@ void World::Implementation::stage_joints_again(StagedUploads &uploads) const
 void World::Implementation::write_joints(const JointImpulses &impulses)
 {
   StagedUploads uploads;
-  stage_joints_again(uploads);
+  stage_joints_again(uploads, special.order);
   impulses.stage(uploads, joint_order.joints(), joint_graph.axes);
   uploads.prepare(memory);
   ++state;

@@ -19,10 +19,11 @@ void check_joints(const Settings &settings, const Scene &scene)
                                  scene.name, name_of(settings.solver), scene.joints.size()));
 }
 
-void World::Implementation::stage_joint_tables(StagedUploads &uploads) const
+/* order: of the bodies in the buffers. */
+void World::Implementation::stage_joint_tables(StagedUploads &uploads, std::span<const uint32_t> order) const
 {
   std::vector<uint32_t> indices(scene.bodies.size());
-  for (uint32_t i = 0; i < special.order.size(); ++i) indices[special.order[i]] = i;
+  for (uint32_t i = 0; i < order.size(); ++i) indices[order[i]] = i;
   stage_joints(uploads, scene, joint_graph, joint_order.joints(), indices, plan.bodies);
   stage_bodies_of_joints(uploads, scene, joint_graph, joint_order.awake(), indices, first_joined_pair(sizes()));
 }

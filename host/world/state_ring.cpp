@@ -347,7 +347,8 @@ void World::Implementation::go_back(uint32_t states)
     if (then.joints && then.joints->number != joints_number) {
       joint_slots_then = then.joints->slots;
       joints_then.emplace(*this, then.joints->joints);
-      stage_joints_again(uploads);
+      if (others_sleep) joint_order.take(sleepers_then->joints, sleepers_then->awake_joints);
+      stage_joints_again(uploads, others_sleep ? sleepers_then->order : special.order);
     }
     stage_roster(uploads, then, changes, others_sleep ? sleepers_then->index_of_body : index_of_body);
     uploads.prepare(memory);
