@@ -229,6 +229,7 @@ struct World::Implementation {
   void tell_joints();
   void plan_joints() noexcept;
   bool is_joint_asleep(uint32_t joint) const;
+  bool sleeps_as_one(uint32_t joint) const;
   void put_joints_to_sleep();
   void wake_joints(std::span<const uint32_t> of_slots);
   std::set<uint32_t> islands_joined_to(uint32_t slot) const;
