@@ -47,6 +47,9 @@ float4 float4_of(const Quat &orientation)
 /* Kernels compute with a number in place of an infinite limit. */
 float finite(float x) { return std::clamp(x, -1e30f, 1e30f); }
 
+/* Kernels divide by stiffness and damping; what comes of the least and the largest of floats is none. */
+float moderate(float x) { return x > 0 ? std::clamp(x, 1e-30f, 1e30f) : 0; }
+
 /* The planes of the axes of joints, by their places. */
 class AxisRows {
 public:
@@ -59,9 +62,11 @@ public:
     kinds_[k * joints_ + joint] = used.kind;
     rows_[3 * k * joints_ + joint] = {finite(axis.lower), finite(axis.upper), axis.target_position,
                                       axis.target_velocity};
-    rows_[(3 * k + 1) * joints_ + joint] = {axis.stiffness, axis.motor ? float{DAMPING_OF_MOTOR} : axis.damping,
+    rows_[(3 * k + 1) * joints_ + joint] = {moderate(axis.stiffness),
+                                            axis.motor ? float{DAMPING_OF_MOTOR} : moderate(axis.damping),
                                             finite(axis.max_force), axis.friction};
-    rows_[(3 * k + 2) * joints_ + joint] = {axis.limit_stiffness, axis.limit_damping, finite(axis.max_speed), 0};
+    rows_[(3 * k + 2) * joints_ + joint] = {moderate(axis.limit_stiffness), moderate(axis.limit_damping),
+                                            finite(axis.max_speed), 0};
   }
   void stage(StagedUploads &uploads)
   {
