@@ -219,7 +219,7 @@ struct World::Implementation {
   /* --- properties that change: properties.cpp -------------------------------------------------------------------- */
   void set_properties(std::span<const BodyId> ids, std::span<const BodyProperties> properties);
   void refuse_unbuilt(std::span<const uint32_t> slots, std::span<const Body> changed_bodies);
-  void write_properties(std::span<const uint32_t> slots);
+  void write_properties(std::span<const uint32_t> slots, bool weighs_anew);
   void forget_colors(std::span<const uint32_t> freed);
 
   /* --- joints that sleep with their bodies: sleeping_joints.cpp -------------------------------------------------- */
