@@ -15,9 +15,9 @@
 namespace tandem {
 namespace {
 
-/* Bodies of at most `least` joints settle in any case, those of more than `most` in none. Between these, errors of random
- * stars grew where a body had more of the motion of its joints than this many times a half: from 3.9 halves on where
- * rotations are held, and from 6.9 where points are. */
+/* Bodies of at most `least` joints settle in any case, those of more than `most` in none. Between these it depends on
+ * how much of the motion of its joints a body has: errors of random stars grew from the motion of 1.96 joints on where
+ * rotations are held, and from that of 3.5 where points are. */
 constexpr uint32_t least = 2, most = 6;
 constexpr double most_of_turning = 1.9, most_of_points = 3;
 

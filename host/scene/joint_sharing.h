@@ -1,5 +1,5 @@
-/* joint_sharing.h - how much lighter than they are bodies seem to their joints, so that passes over the joints of a body
- * that many or heavy others hang on do not amplify errors.
+/* joint_sharing.h - how much lighter than they are bodies seem to their joints, so that passes over the joints of a
+ * body that many or heavy others hang on do not amplify errors.
  *
  *          o   o            Each joint alone would move the light body out of its own way, and so undo what the others
  *           \ /             have done. Gauss-Seidel passes over them, warm started by the last substep, have an
