@@ -12,6 +12,7 @@
 
 #include "host/scene/body_buffers.h"
 #include "host/scene/joint_rows.h"
+#include "host/scene/joint_sharing.h"
 #include "shared/broadphase/joined_pairs.h"
 #include "shared/counts.h"
 #include "shared/joints/joint_codes.h"
@@ -60,13 +61,17 @@ float4 float4_of(const Quat &orientation)
 /* Kernels compute with a number in place of an infinite limit. */
 float finite(float x) { return std::clamp(x, -1e30f, 1e30f); }
 
+/* Kernels divide by stiffness and damping; what comes of the least and the largest of floats is none. */
+float moderate(float x) { return x > 0 ? std::clamp(x, 1e-30f, 1e30f) : 0; }
+
 /* The row of an axis: shared/joints/axes.h. */
 std::array<float4, 3> row_of_axis(const JointAxis &axis)
 {
-  return {float4{finite(axis.lower), finite(axis.upper), axis.target_position, axis.target_velocity},
-          float4{axis.stiffness, axis.motor ? float{DAMPING_OF_MOTOR} : axis.damping, finite(axis.max_force),
-                 axis.friction},
-          float4{axis.limit_stiffness, axis.limit_damping, finite(axis.max_speed), axis.restitution}};
+  return {
+      float4{finite(axis.lower), finite(axis.upper), axis.target_position, axis.target_velocity},
+      float4{moderate(axis.stiffness), axis.motor ? float{DAMPING_OF_MOTOR} : moderate(axis.damping),
+             finite(axis.max_force), axis.friction},
+      float4{moderate(axis.limit_stiffness), moderate(axis.limit_damping), finite(axis.max_speed), axis.restitution}};
 }
 
 /* The planes of the axes of joints, by their places. */
@@ -93,41 +98,12 @@ private:
   std::vector<float4> rows_;
 };
 
-bool is_between_dynamic(const Scene &scene, const Joint &joint)
-{
-  return can_be_pushed(scene, joint.body_a) && can_be_pushed(scene, joint.body_b);
-}
-
-/* How much lighter a body seems to its joints. Gauss-Seidel passes over n joints of a light body with others that move,
- * warm started by the last substep, amplify errors from some 10 joints on: their iteration matrix has complex
- * eigenvalues there. Where each joint takes 2 / n of an error, they settle. A body of few settles by itself. */
-class Sharing {
-public:
-  static constexpr uint32_t few = 6;
-
-  explicit Sharing(const Scene &scene) : scene_(scene), joints_(scene.bodies.size())
-  {
-    for (const Joint &joint : scene.joints)
-      if (joint.enabled && is_between_dynamic(scene, joint))
-        for (const uint32_t body : {joint.body_a, joint.body_b}) ++joints_[body];
-  }
-  float of(const Joint &joint, uint32_t body) const
-  {
-    if (!is_between_dynamic(scene_, joint) || joints_[body] <= few) return 1;
-    return round_to_float(0.5 * joints_[body]);
-  }
-
-private:
-  const Scene &scene_;
-  std::vector<uint32_t> joints_;
-};
-
 /* The rows of joints, by their places. */
 struct JointRows {
   std::vector<uint32_t> modes;
   std::vector<float4> arm_a, arm_b, frame_a, frame_b, world_frame, limits;
 
-  void add(const Joint &joint, const Sharing &sharing)
+  void add(const Joint &joint, const JointSharing &sharing)
   {
     modes.push_back(modes_of(joint));
     arm_a.push_back(arm_of(joint.position_a, joint.body_a, sharing.of(joint, joint.body_a)));
@@ -265,7 +241,7 @@ void stage_joints(StagedUploads &uploads, const Scene &scene, const JointGraph &
 {
   if (scene.joints.empty()) return;
   JointRows rows;
-  const Sharing sharing(scene);
+  const JointSharing sharing(scene);
   for (const uint32_t joint : joints) rows.add(scene.joints[joint], sharing);
   rows.stage(uploads);
   stage_axes(uploads, scene, joints, graph.axes);

@@ -224,7 +224,7 @@ struct World::Implementation {
   void refuse_unbuilt(std::span<const uint32_t> slots, std::span<const Body> changed_bodies);
   void refuse_idle_joints(std::span<const uint32_t> joints, std::span<const uint32_t> changed,
                           std::span<const Body> changed_bodies);
-  void write_properties(std::span<const uint32_t> slots);
+  void write_properties(std::span<const uint32_t> slots, bool weighs_anew);
   void forget_colors(std::span<const uint32_t> freed);
 
   /* --- joints that sleep with their bodies: sleeping_joints.cpp -------------------------------------------------- */
@@ -234,6 +234,7 @@ struct World::Implementation {
   void tell_joints();
   void plan_joints() noexcept;
   bool is_joint_asleep(uint32_t joint) const;
+  bool sleeps_as_one(uint32_t joint) const;
   void put_joints_to_sleep();
   void wake_joints(std::span<const uint32_t> of_slots);
   std::set<uint32_t> islands_joined_to(uint32_t slot) const;

@@ -59,12 +59,13 @@ void JointOrder::find_starts(size_t awake)
   }
 }
 
-/* first: what stands at the first places, whose present joints are among these. */
-JointOrder::Moves JointOrder::put(std::vector<uint32_t> first, size_t awake)
+/* first: what stands at the first places, whose present joints are among these. all_from: the first place whose joint is
+ * listed even if it stands there already. */
+JointOrder::Moves JointOrder::put(std::vector<uint32_t> first, size_t awake, size_t all_from)
 {
   Moves moves;
   for (uint32_t place = 0; place < first.size(); ++place)
-    if (place_[first[place]] != place) {
+    if (place_[first[place]] != place || place >= all_from) {
       moves.from.push_back(place_[first[place]]);
       moves.to.push_back(place);
     }
@@ -79,7 +80,7 @@ JointOrder::Moves JointOrder::put_to_sleep(const std::function<bool(uint32_t)> &
   std::vector<uint32_t> first(awake().begin(), awake().end());
   const auto fallen = std::stable_partition(first.begin(), first.end(), [&](uint32_t joint) { return !sleeps(joint); });
   const auto still_awake = static_cast<size_t>(fallen - first.begin());
-  return put(std::move(first), still_awake);
+  return put(std::move(first), still_awake, still_awake);
 }
 
 /* What sleeps on and stands where more are awake now goes to the places that those who wake leave. */
@@ -102,7 +103,7 @@ JointOrder::Moves JointOrder::wake(std::vector<uint32_t> woken)
   std::vector<uint32_t> first, displaced;
   std::merge(awake().begin(), awake().end(), woken.begin(), woken.end(), std::back_inserter(first), by_rank);
   for (const uint32_t place : others.from) displaced.push_back(joints_[place]);
-  Moves moves = put(std::move(first), end);
+  Moves moves = put(std::move(first), end, end);
   for (size_t k = 0; k < displaced.size(); ++k) {
     joints_[others.to[k]] = displaced[k];
     place_[displaced[k]] = others.to[k];
@@ -112,7 +113,11 @@ JointOrder::Moves JointOrder::wake(std::vector<uint32_t> woken)
   return moves;
 }
 
-JointOrder::Moves JointOrder::take(std::vector<uint32_t> joints, size_t awake) { return put(std::move(joints), awake); }
+JointOrder::Moves JointOrder::take(std::vector<uint32_t> joints, size_t awake)
+{
+  const size_t all = joints.size();
+  return put(std::move(joints), awake, all);
+}
 
 bool JointOrder::is_order(std::span<const uint32_t> joints, size_t awake) const
 {

@@ -32,7 +32,8 @@ public:
   uint32_t place_of(uint32_t joint) const { return place_[joint]; }
   std::span<const uint32_t> of_body(uint32_t body) const; /* those that are enabled */
 
-  /* Rows that move, all at once. */
+  /* Rows that move, all at once. Those that fall asleep are among them, wherever they go, because steps leave the rows
+   * of sleepers on both sides of what they hand on. */
   struct Moves {
     std::vector<uint32_t> from, to;
   };
@@ -44,7 +45,7 @@ public:
   bool is_order(std::span<const uint32_t> joints, size_t awake) const;
 
 private:
-  Moves put(std::vector<uint32_t> first, size_t awake);
+  Moves put(std::vector<uint32_t> first, size_t awake, size_t all_from);
   void find_starts(size_t awake);
 
   std::vector<uint32_t> joints_, place_, starts_;

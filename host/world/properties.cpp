@@ -104,6 +104,11 @@ template <class Work> void for_each_range(std::span<const uint32_t> sorted, cons
   }
 }
 
+bool changes_mass(const BodyProperties &properties)
+{
+  return properties.mass || properties.inertia || properties.infinite_inertia;
+}
+
 CommandList::Rows mass_command_of(const Body &body)
 {
   const float keeps = body.type == BodyType::fixed ? 0 : 1;
@@ -141,8 +146,9 @@ void World::Implementation::set_properties(std::span<const BodyId> ids, std::spa
   const std::vector<uint32_t> freed = freed_by(scene, changed);
   PlacedBodies placed(scene, changed.slots, changed.bodies);
   try {
+    const bool weighs_anew = std::any_of(properties.begin(), properties.end(), changes_mass);
     if (brings_features(changed.slots)) lay_out_anew();
-    else write_properties(changed.slots);
+    else write_properties(changed.slots, weighs_anew);
   } catch (...) {
     known_kinds.clear(); /* some may be of these bodies alone */
     throw;
@@ -199,7 +205,9 @@ void World::Implementation::forget_colors(std::span<const uint32_t> freed)
   memory.upload(Buffer::cached_color, colors.data(), colors.size() * sizeof(uint32_t));
 }
 
-void World::Implementation::write_properties(std::span<const uint32_t> changed)
+/* weighs_anew: whether some have another mass or other moments, from which it follows how much of each error their
+ * joints take. */
+void World::Implementation::write_properties(std::span<const uint32_t> changed, bool weighs_anew)
 {
   std::vector<uint32_t> indices;
   for (const uint32_t slot : changed) indices.push_back(index_of_body[slot]);
@@ -214,6 +222,9 @@ void World::Implementation::write_properties(std::span<const uint32_t> changed)
       stage_child_properties(uploads, scene, slot, memory.read<uint32_t>(Buffer::body_tree, 1, entry).front(),
                              slots.status());
     }
+  const auto is_joined = [&](uint32_t slot) { return !joint_order.of_body(slot).empty(); };
+  if (weighs_anew && std::any_of(changed.begin(), changed.end(), is_joined))
+    stage_joints(uploads, scene, joint_graph, joint_order.joints(), index_of_body, plan.bodies);
   uploads.prepare(memory);
   ++state;
   uploads.write(memory);

@@ -2,6 +2,8 @@
  * bodies follows these (host/world/joint_order.h). */
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "host/pipeline/layout.h"
 #include "host/pipeline/scene_counts.h"
 #include "host/scene/joint_buffers.h"
@@ -108,10 +110,26 @@ std::set<uint32_t> World::Implementation::islands_joined_to(uint32_t slot) const
   return islands;
 }
 
+/* Whether its bodies sleep in one island, or at most one of them can sleep. */
+bool World::Implementation::sleeps_as_one(uint32_t joint) const
+{
+  const auto can_sleep = [&](uint32_t body) {
+    return can_be_pushed(scene, body) && slots.status()[body] == BodyStatus::present;
+  };
+  const auto [a, b] = std::pair(scene.joints[joint].body_a, scene.joints[joint].body_b);
+  if (!can_sleep(a) || !can_sleep(b)) return true;
+  if (!sleepers.sleeps(a) || !sleepers.sleeps(b)) return sleepers.sleeps(a) == sleepers.sleeps(b);
+  return sleepers.island_of(a) == sleepers.island_of(b);
+}
+
 /* joints: as a snapshot has them; empty: nobody sleeps. */
 void World::Implementation::take_joint_order(std::vector<uint32_t> joints)
 {
-  if (joints.empty()) return;
+  if (joints.empty() && (sleepers.empty() || scene.joints.empty())) return;
+  for (uint32_t joint = 0; joint < scene.joints.size(); ++joint)
+    if (!sleeps_as_one(joint))
+      throw InputError(
+          fmt::format("snapshot: the bodies of joint {} do not sleep in one island; the file is damaged", joint));
   const auto asleep = std::find_if(joints.begin(), joints.end(), [&](uint32_t joint) {
     return joint < scene.joints.size() && is_joint_asleep(joint);
   });

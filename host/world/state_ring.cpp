@@ -116,8 +116,6 @@ void World::Implementation::keep_states(uint32_t states, bool after_steps)
   constexpr uint32_t most_states = 10000;
   if (states > most_states)
     throw InputError(fmt::format("keep_states: {} states; {} are the most", states, most_states));
-  if (states > 0 && settings.sleeping && !scene.joints.empty())
-    throw InputError("keep_states: a world with sleeping and joints keeps no states yet; leave one of them off");
   StateRing fresh;
   fresh.resize(states, after_steps);
   if (states > 0) buffers.make_ready(sizes());

@@ -174,6 +174,16 @@ SHARED real value_near_range(const axis_row *r, const joint_axis *axis)
   return choose(turns, near + distance_from(r->at.value, near, turns), r->at.value);
 }
 
+/* The change of the impulse of a soft stop. One that is ahead gives no more than it takes to arrive there at the end of
+ * the substep, because its damper begins where its spring does. */
+SHARED real soft_stop_change(GLOBAL const Parameters *parameters, const axis_row *r, const joint_axis *axis, real open,
+                             mask held, real old)
+{
+  real change = spring_change(parameters, r, axis->limit_stiffness, axis->limit_damping, open, R(0.0), old);
+  real arriving = R(0.0) - r->mass * (r->speed + open * parameters->inverse_substep);
+  return choose((open > R(0.0)) & !held, minimum(change, arriving), change);
+}
+
 /* One limit, from below; the new impulse pushes the coordinate up. held: from above as well. */
 SHARED real solve_stop(GLOBAL const Parameters *parameters, axis_row *r, const joint_axis *axis, real open, mask held,
                        real old, uint pass)
@@ -181,9 +191,7 @@ SHARED real solve_stop(GLOBAL const Parameters *parameters, axis_row *r, const j
   real change = stop_change(parameters, r, open, old, pass);
   change = choose(held, hold_change(parameters, r, open, old, pass), change);
   mask springy = axis->limit_stiffness > R(0.0);
-  if (any_of(springy))
-    change = choose(
-        springy, spring_change(parameters, r, axis->limit_stiffness, axis->limit_damping, open, R(0.0), old), change);
+  if (any_of(springy)) change = choose(springy, soft_stop_change(parameters, r, axis, open, held, old), change);
   real impulse = old + change;
   impulse = choose(held, impulse, maximum(impulse, R(0.0)));
   r->speed = r->speed + r->response * (impulse - old);

@@ -1,5 +1,7 @@
 /* Joints that fall asleep and wake with their bodies have the same bits on every backend, and so do worlds that go on
  * from what was kept or written down while some sleep. */
+#include <optional>
+
 #include "tests/parity/joints.h"
 
 using namespace tandem;
@@ -148,10 +150,52 @@ TEST_CASE("a snapshot with joints that sleep goes on with the same bits on anoth
   }
 }
 
-TEST_CASE("a world with joints and sleeping refuses to keep states, by name")
+/* Whatever number of steps its joints sleep. */
+TEST_CASE("a world whose joints sleep and one that is made of its snapshot have the same bits")
 {
   World world(rows_of_boxes(), sleeping_settings(), {"serial", {}, false});
-  CHECK_THROWS_WITH(world.keep_states(8), Catch::Matchers::ContainsSubstring("keeps no states yet"));
+  std::optional<World> other;
+  uint32_t asleep = 0;
+  for (uint64_t step = 0; step < 200; ++step) {
+    if (step % 25 == 18) other.emplace(world.save(), Placement{"tbb:threads=2,lanes=4", {}, false});
+    for (World *one : {&world, other ? &*other : nullptr}) {
+      if (!one) continue;
+      disturb(*one, step);
+      one->step();
+    }
+    CAPTURE(step);
+    if (other) REQUIRE(world.state_hash() == other->state_hash());
+    if (world.statistics().asleep > 0) ++asleep;
+  }
+  CHECK(asleep > 50);
+}
+
+TEST_CASE("a world goes back to states in which other joints slept, and on with the same bits")
+{
+  World world(rows_of_boxes(), sleeping_settings(), {"tbb:threads=2,lanes=4", {}, false});
+  world.keep_states(30);
+  std::vector<uint64_t> hashes;
+  int others_slept = 0;
+  for (uint64_t step = 0; step < 300; ++step) {
+    hashes.resize(step);
+    hashes.push_back(world.state_hash());
+    const uint32_t states = 3 + uint32_t(step % 17);
+    if (step % 13 == 5 && states < world.states_kept()) { /* the first body that comes makes it forget them */
+      const uint32_t asleep = world.statistics().asleep;
+      world.go_back(states);
+      if (world.statistics().asleep != asleep) ++others_slept;
+      for (uint64_t again = step - states; again < step; ++again) {
+        CAPTURE(step, again);
+        REQUIRE(world.state_hash() == hashes[again]);
+        disturb(world, again);
+        world.step();
+      }
+      REQUIRE(world.state_hash() == hashes[step]);
+    }
+    disturb(world, step);
+    world.step();
+  }
+  CHECK(others_slept > 3);
 }
 
 /* Bodies that come lay the buffers out anew, and shapes bring features, while joints sleep. */

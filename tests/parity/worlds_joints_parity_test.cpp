@@ -41,7 +41,8 @@ std::vector<Scene> crowds()
   std::erase_if(scenes[1].joints, [](const Joint &joint) { return is_to_body(joint, 2); });
   std::erase_if(scenes[2].joints, [](const Joint &joint) { return joint.type != JointType::ball; });
   scenes[3].joints.clear();
-  scenes.push_back(star(uint32_t(scenes[0].bodies.size())));
+  /* several with overflow joints of two types, of which those of one world must stand together */
+  for (int copy = 0; copy < 2; ++copy) scenes.push_back(star(uint32_t(scenes[0].bodies.size())));
   return scenes;
 }
 

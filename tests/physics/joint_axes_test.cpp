@@ -175,6 +175,59 @@ TEST_CASE("joint axes: a soft limit gives way as its stiffness says", "[physics]
   CHECK(std::abs(x_of(world) - 10.0 / 500) < 1e-4);
 }
 
+TEST_CASE("joint axes: the damper of a soft limit brakes nothing before the limit", "[physics]")
+{
+  const float damping = GENERATE(0.0f, 1.0f, 100.0f, 10000.0f);
+  Held held(JointType::slider);
+  held.body().linear_velocity = {-1, 0, 0};
+  held.joint.directions[0] = {.lower = -1.01f, .limit_stiffness = 1, .limit_damping = damping};
+  World world = held.world();
+  for (int k = 1; k < 60; ++k) {
+    world.step();
+    REQUIRE(std::abs(x_of(world) + k / 60.0) < 1e-5);
+    REQUIRE(std::abs(speed_of(world) + 1) < 1e-5);
+  }
+  run(world, 30);
+  if (damping >= 100) CHECK(std::abs(speed_of(world)) < 0.02);
+  CHECK(x_of(world) < -1.01 + 1e-5);
+}
+
+/* m x'' = -k x - c x' from the moment at which it reaches the limit. */
+TEST_CASE("joint axes: a body leaves a soft limit with what its damper leaves it", "[physics]")
+{
+  const double stiffness = 400, damping = 8, decay = damping / 2, rate = std::sqrt(stiffness - decay * decay);
+  Held held(JointType::slider);
+  held.body().linear_velocity = {-1, 0, 0};
+  held.joint.directions[0] = {.lower = -0.5f, .limit_stiffness = float(stiffness), .limit_damping = float(damping)};
+  World world = held.world(1.0 / 1000);
+  run(world, 1000);
+  const double lost = std::exp(-decay * (pi - std::atan2(2 * decay * rate, rate * rate - decay * decay)) / rate);
+  CHECK(std::abs(speed_of(world) - lost) < 0.02);
+}
+
+/* The least floats vanish where kernels divide by them, and the largest leave the range of numbers. */
+TEST_CASE("joint axes: no stiffness or damping is too small or too large", "[physics]")
+{
+  const float number = GENERATE(1e-45f, 1e-40f, 1e-37f, 1e-33f, 1e36f, 3e38f);
+  CAPTURE(number);
+  const JointAxis axes[] = {{.target_position = 100, .stiffness = number},
+                            {.target_velocity = 1, .damping = number},
+                            {.target_position = 100, .stiffness = number, .damping = number},
+                            {.upper = 0.5f, .limit_stiffness = number},
+                            {.upper = 0.5f, .limit_stiffness = number, .limit_damping = number}};
+  for (const JointAxis &axis : axes) {
+    Held held(JointType::slider);
+    held.body().linear_velocity = {1, 0, 0};
+    held.joint.directions[0] = axis;
+    World world = held.world();
+    run(world, 120);
+    CAPTURE(&axis - axes, x_of(world), speed_of(world));
+    CHECK(world.quarantined().empty());
+    CHECK(std::abs(x_of(world)) < 101);
+    CHECK(std::abs(speed_of(world)) < 1000);
+  }
+}
+
 TEST_CASE("joint axes: a range of nothing holds the axis", "[physics]")
 {
   Held held(JointType::slider, {10, 0, 0});

@@ -236,3 +236,31 @@ TEST_CASE("what is joined to a kinematic body is awake while that moves, and wak
   run(world, 60);
   CHECK(open_joints(world).max_distance < 5e-3);
 }
+
+/* Whose places in the buffers change as others sleep and wake. */
+TEST_CASE("joined bodies that overlap do not collide after others, and they themselves, have slept")
+{
+  Scene scene = empty_scene({0, 0, 0});
+  constexpr uint32_t pairs = 8;
+  for (uint32_t k = 0; k < pairs; ++k) {
+    for (const double x : {0.0, 0.3}) add_damped(scene, box_shape(0.25f, 0.25f, 0.25f), {x, 2.0 * k, 0});
+    connect(scene, k % 2 ? JointType::fixed : JointType::ball, 2 * k, 2 * k + 1, {0.15, 2.0 * k, 0});
+    if (k % 3) scene.bodies[2 * k].angular_velocity = {0.3f * float(k), 0, 0}; /* some are awake for longer */
+  }
+  World world = sleeping_world(scene);
+  uint32_t most_asleep = 0, wakings = 0;
+  for (uint32_t step = 0; step < 600; ++step) {
+    if (step % 60 == 50) {
+      const BodyId id = world.id_of(2 * (step / 60 * 3 % pairs));
+      if (world.is_asleep(id)) ++wakings;
+      world.add_impulse(id, {.impulse = {}, .angular_impulse = {0, 0, 0.002f}});
+    }
+    world.step();
+    CAPTURE(step);
+    REQUIRE(world.statistics().contacts == 0);
+    most_asleep = std::max(most_asleep, world.statistics().asleep);
+  }
+  CHECK(most_asleep == 2 * pairs);
+  CHECK(wakings > 3);
+  CHECK(open_joints(world).max_distance < 1e-3);
+}
