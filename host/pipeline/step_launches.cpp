@@ -71,6 +71,13 @@ void StepLaunches::run_overflow_joints(Kernel kernel, const Values &values)
   else run(kernel, values);
 }
 
+void StepLaunches::for_each_coupling_color(Kernel kernel, Kernel overflow, const Values &values)
+{
+  for (uint32_t color = 0; color < std::min(plan_.coupling_colors, COLOR_LIMIT); ++color)
+    run_range(kernel, COUPLING_COLOR_START + color, COUPLING_COLOR_START + color + 1, values);
+  if (plan_.coupling_colors > COLOR_LIMIT) run(overflow, values);
+}
+
 void StepLaunches::for_each_color(Kernel kernel, Kernel overflow, const Values &values)
 {
   for_each_color(kernel, values);

@@ -75,6 +75,8 @@ HeldAxes held_by(const Joint &joint)
   return {row.directions, row.rotations};
 }
 
+uint32_t kind_of_axis(const Joint &joint, size_t axis) { return kinds_of(joint)[axis]; }
+
 std::vector<UsedAxis> axes_used_by(const Joint &joint)
 {
   const Kinds kinds = kinds_of(joint);

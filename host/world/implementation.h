@@ -26,6 +26,7 @@
 #include "host/scene/body_buffers.h"
 #include "host/scene/body_records.h"
 #include "host/scene/buffer_measures.h"
+#include "host/scene/coupling_graph.h"
 #include "host/scene/hull_buffers.h"
 #include "host/scene/joint_graph.h"
 #include "host/scene/specialise.h"
@@ -328,6 +329,7 @@ struct World::Implementation {
   Memory memory;
   StepBuffers buffers;
   JointGraph joint_graph;
+  CouplingGraph coupling_graph;
   JointOrder joint_order;
   BodySlots slots;
   ShapeSlots shapes;

@@ -66,6 +66,14 @@ template <Is<Joint> T, class Visit> auto visit_fields(T &record, const Visit &vi
                held_directions, held_rotations, directions, rotations);
 }
 
+template <Is<Coupling> T, class Visit> auto visit_fields(T &record, const Visit &visit)
+{
+  auto &[name, type, joint_a, joint_b, coordinate_a, coordinate_b, teeth_a, teeth_b, travel, ratio, offset,
+         only_pulls] = record;
+  return visit(name, type, joint_a, joint_b, coordinate_a, coordinate_b, teeth_a, teeth_b, travel, ratio, offset,
+               only_pulls);
+}
+
 /* Extensions are functions of the program; snapshots name their modules. */
 template <Is<Settings> T, class Visit> auto visit_fields(T &record, const Visit &visit)
 {
