@@ -70,7 +70,8 @@ void stage_couplings(StagedUploads &uploads, const Scene &scene, const CouplingG
   std::vector<float4> rows;
   for (const uint32_t coupling : graph.order) {
     const CouplingRow row = row_of(scene.couplings[coupling], scene);
-    kinds.push_back(row.kind_a | row.kind_b << COUPLING_KIND_B_SHIFT | (row.one_sided ? COUPLING_ONE_SIDED : 0u));
+    kinds.push_back(row.kind_a | row.kind_b << COUPLING_KIND_B_SHIFT |
+                    (row.one_sided ? uint32_t{COUPLING_ONE_SIDED} : 0u));
     rows.push_back(
         {round_to_float(row.of_a), round_to_float(row.of_b), round_to_float(row.offset), round_to_float(row.period)});
   }

@@ -81,7 +81,7 @@ CouplingRow row_of(const Coupling &coupling, const Scene &scene)
 
 namespace {
 
-std::string names_of_types()
+std::string names_of_coupling_types()
 {
   std::string names;
   for (const char *name : coupling_type_names()) names += (names.empty() ? "" : ", ") + std::string(name);
@@ -155,7 +155,7 @@ void validate(const Scene &scene, const Coupling &coupling, size_t index, const 
 {
   const Checker check{where, "coupling", index, coupling.name};
   if (static_cast<size_t>(coupling.type) >= coupling_type_names().size())
-    check.fail(fmt::format("unknown type; {} exist", names_of_types()));
+    check.fail(fmt::format("unknown type; {} exist", names_of_coupling_types()));
   check_joint("joint_a", coupling.joint_a, scene, check);
   check_joint("joint_b", coupling.joint_b, scene, check);
   for (const JointCoordinate coordinate : {coupling.coordinate_a, coupling.coordinate_b})
