@@ -5,11 +5,13 @@
 #include <array>
 #include <bit>
 #include <numeric>
+#include <tuple>
 
 #include <tandem/round_to_float.h>
 
 #include "host/scene/coupling_rows.h"
 #include "host/scene/joint_buffers.h"
+#include "host/scene/joint_graph.h"
 #include "shared/counts.h"
 #include "shared/joints/coupling_codes.h"
 
@@ -42,7 +44,7 @@ std::vector<uint32_t> colors_of(const Scene &scene)
 
 } // namespace
 
-CouplingGraph coupling_graph_of(const Scene &scene)
+CouplingGraph coupling_graph_of(const Scene &scene, uint32_t worlds)
 {
   CouplingGraph graph;
   const std::vector<uint32_t> colors = colors_of(scene);
@@ -54,8 +56,12 @@ CouplingGraph coupling_graph_of(const Scene &scene)
   std::partial_sum(graph.starts.begin(), graph.starts.end(), graph.starts.begin());
   graph.order.resize(colors.size());
   std::iota(graph.order.begin(), graph.order.end(), 0u);
-  std::stable_sort(graph.order.begin(), graph.order.end(),
-                   [&](uint32_t a, uint32_t b) { return colors[a] < colors[b]; });
+  const size_t bodies_of_world = std::max<size_t>(scene.bodies.size() / worlds, 1);
+  const auto place = [&](uint32_t coupling) {
+    const uint32_t body = some_body_of(scene.joints[scene.couplings[coupling].joint_a]);
+    return std::tuple(colors[coupling], colors[coupling] == COLOR_OVERFLOW ? body / bodies_of_world : 0, coupling);
+  };
+  std::sort(graph.order.begin(), graph.order.end(), [&](uint32_t a, uint32_t b) { return place(a) < place(b); });
   return graph;
 }
 

@@ -23,7 +23,8 @@ struct CouplingGraph {
   uint32_t colors = 0;          /* in use; COLOR_LIMIT + 1 if some are past the last one */
 };
 
-CouplingGraph coupling_graph_of(const Scene &scene);
+/* worlds: of a batch, as of joint_graph_of(); those past the last colour stand world after world. */
+CouplingGraph coupling_graph_of(const Scene &scene, uint32_t worlds = 1);
 
 Features coupling_features(const Scene &scene);
 

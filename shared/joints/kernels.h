@@ -9,6 +9,7 @@
 #include "shared/joints/solve.h"
 #ifndef TANDEM_LANES /* ITEM kernels take one item at a time */
 #include "shared/joints/by_world.h"
+#include "shared/joints/couplings_by_world.h"
 #include "shared/joints/driven.h"
 #include "shared/joints/overflow.h"
 #include "shared/joints/overflow_couplings.h"
