@@ -14,11 +14,11 @@ using namespace scene_builders;
 
 namespace {
 
-constexpr Quat y_to_z{0.70710678f, 0, 0, 0.70710678f};  /* of a cylinder */
-constexpr Quat x_to_z{0, -0.70710678f, 0, 0.70710678f}; /* of the axis of a joint */
-constexpr Quat x_to_down{0, 0, -0.70710678f, 0.70710678f};
+constexpr Quat cylinder_to_z{0.70710678f, 0, 0, 0.70710678f}; /* of a cylinder */
+constexpr Quat axis_to_z{0, -0.70710678f, 0, 0.70710678f};    /* of the axis of a joint */
+constexpr Quat axis_down{0, 0, -0.70710678f, 0.70710678f};
 
-Body &add_part(Scene &scene, uint32_t shape, const Point &at, double mass, const char *name)
+Body &add_machine_part(Scene &scene, uint32_t shape, const Point &at, double mass, const char *name)
 {
   Body &part = add_body(scene, shape, at, round_to_float(mass));
   part.name = name;
@@ -32,8 +32,8 @@ void let_pass(Body &body)
   body.filter_mask = ~2u;
 }
 
-Joint &hold(Scene &scene, JointType type, const Point &in_world, uint32_t body, const Quat &axes,
-            const Quat &axes_of_body)
+Joint &hold_to_world(Scene &scene, JointType type, const Point &in_world, uint32_t body, const Quat &axes,
+                     const Quat &axes_of_body)
 {
   Joint joint;
   joint.type = type;
@@ -52,11 +52,11 @@ Joint &hold(Scene &scene, JointType type, const Point &in_world, uint32_t body, 
  *    ===================
  */
 
-constexpr double tooth = 0.05; /* m, the radius of a wheel for each two of its teeth */
+constexpr double module_of_teeth = 0.05; /* m, the radius of a wheel for each two of its teeth */
 constexpr int32_t small_teeth = 12, large_teeth = 20;
 
 int32_t teeth_of(int64_t wheel) { return wheel % 2 == 0 ? small_teeth : large_teeth; }
-double radius_of(int64_t wheel) { return 0.5 * tooth * teeth_of(wheel); }
+double radius_of(int64_t wheel) { return 0.5 * module_of_teeth * teeth_of(wheel); }
 
 uint64_t motor_mill_bodies(const SceneValues &v)
 {
@@ -68,7 +68,7 @@ uint64_t motor_mill_bodies(const SceneValues &v)
 void add_paddles(Scene &scene, uint32_t shape, uint32_t wheel, const Point &at)
 {
   const auto paddles = static_cast<uint32_t>(scene.bodies.size());
-  add_part(scene, shape, {at[0], at[1], 0.55}, 60, "paddles");
+  add_machine_part(scene, shape, {at[0], at[1], 0.55}, 60, "paddles");
   Joint joint;
   joint.type = JointType::fixed;
   joint.body_a = wheel;
@@ -94,12 +94,12 @@ void add_train(Scene &scene, int64_t wheels, double height, float speed)
   std::vector<uint32_t> axles;
   for (int64_t i = 0; i < wheels; ++i, x += radius_of(0) + radius_of(1)) {
     const auto wheel = static_cast<uint32_t>(scene.bodies.size());
-    Body &body = add_part(scene, i % 2 == 0 ? small : large, {x, height, 0}, i % 2 == 0 ? 10 : 28, "wheel");
-    body.orientation = y_to_z;
+    Body &body = add_machine_part(scene, i % 2 == 0 ? small : large, {x, height, 0}, i % 2 == 0 ? 10 : 28, "wheel");
+    body.orientation = cylinder_to_z;
     let_pass(body);
     axles.push_back(static_cast<uint32_t>(scene.joints.size()));
     /* both axes x are along the shaft: y of the wheel */
-    hold(scene, JointType::hinge, {x, height, 0}, wheel, x_to_z, {-0.5f, -0.5f, 0.5f, 0.5f});
+    hold_to_world(scene, JointType::hinge, {x, height, 0}, wheel, axis_to_z, {-0.5f, -0.5f, 0.5f, 0.5f});
     if (i > 0) {
       Coupling mesh;
       mesh.joint_a = axles[size_t(i - 1)];
@@ -127,7 +127,7 @@ Scene motor_mill(const SceneValues &v)
   const uint32_t ball = add_shape(scene, sphere_shape(0.09f));
   for (int64_t i = 0; i < stones; ++i) {
     const double x = random.uniform(-span, span), z = random.uniform(0.3, 0.8);
-    add_part(scene, ball, {x, height + 1 + 0.06 * double(i), z}, 6, "stone");
+    add_machine_part(scene, ball, {x, height + 1 + 0.06 * double(i), z}, 6, "stone");
   }
   return scene;
 }
@@ -143,7 +143,7 @@ Scene motor_mill(const SceneValues &v)
 
 uint64_t crane_bodies(const SceneValues &v) { return 4 + uint64_t(whole(v, "rows") * whole(v, "length")); }
 
-void drive(JointAxis &axis, double speed, double way, double force)
+void drive_axis(JointAxis &axis, double speed, double way, double force)
 {
   axis.motor = true;
   axis.target_velocity = round_to_float(speed);
@@ -161,13 +161,13 @@ Scene crane(const SceneValues &v)
                  load = add_shape(scene, box_shape(0.6f, round_to_float(load_height), 0.6f)),
                  winch = add_shape(scene, box_shape(0.2f, 0.3f, 0.2f)),
                  brick = add_shape(scene, box_shape(0.25f, 0.25f, 0.5f));
-  add_part(scene, trolley, {start, height, 0}, 300, "trolley");
-  add_part(scene, load, {start, load_height, 0}, number(v, "mass"), "load").angular_damping = 0.5f;
-  add_part(scene, winch, {start - 2, height, 0}, 100, "winch");
-  hold(scene, JointType::slider, {start, height, 0}, 1, {0, 0, 0, 1}, {0, 0, 0, 1});
-  drive(scene.joints.back().directions[0], number(v, "speed"), -2 * start, 2e4);
-  hold(scene, JointType::slider, {start - 2, height, 0}, 3, x_to_down, x_to_down);
-  drive(scene.joints.back().directions[0], 1.5 * number(v, "speed"), 2 * lift, 1e6);
+  add_machine_part(scene, trolley, {start, height, 0}, 300, "trolley");
+  add_machine_part(scene, load, {start, load_height, 0}, number(v, "mass"), "load").angular_damping = 0.5f;
+  add_machine_part(scene, winch, {start - 2, height, 0}, 100, "winch");
+  hold_to_world(scene, JointType::slider, {start, height, 0}, 1, {0, 0, 0, 1}, {0, 0, 0, 1});
+  drive_axis(scene.joints.back().directions[0], number(v, "speed"), -2 * start, 2e4);
+  hold_to_world(scene, JointType::slider, {start - 2, height, 0}, 3, axis_down, axis_down);
+  drive_axis(scene.joints.back().directions[0], 1.5 * number(v, "speed"), 2 * lift, 1e6);
   Joint rope;
   rope.type = JointType::distance;
   rope.body_a = 1;
@@ -184,8 +184,9 @@ Scene crane(const SceneValues &v)
   scene.couplings.push_back(pulley);
   for (int64_t row = 0; row < whole(v, "rows"); ++row)
     for (int64_t k = 0; k < whole(v, "length"); ++k)
-      add_part(scene, brick, {2, 0.25 + 0.5 * double(row), 1.02 * (double(k) - 0.5 * double(whole(v, "length") - 1))},
-               40, "brick");
+      add_machine_part(scene, brick,
+                       {2, 0.25 + 0.5 * double(row), 1.02 * (double(k) - 0.5 * double(whole(v, "length") - 1))}, 40,
+                       "brick");
   return scene;
 }
 
