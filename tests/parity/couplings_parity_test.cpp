@@ -2,6 +2,7 @@
  * and from every state that was kept or written down. */
 #include "host/scene/coupling_graph.h"
 #include "shared/counts.h"
+#include "tests/host/runtime/opencl/pocl.h"
 #include "tests/host/world/worlds.h"
 #include "tests/parity/couplings.h"
 

@@ -98,10 +98,10 @@ TEST_CASE("couplings: gears hold their ratio over a hundred turns, and no tooth 
 {
   const auto [a, b] = GENERATE(std::pair(20, 30), std::pair(17, -40), std::pair(31, 7), std::pair(-1, 2));
   Pair pair(a, b);
-  pair.motor() = {.target_velocity = 12, .motor = true};
+  pair.motor() = {.target_velocity = 12, .motor = true, .max_force = 20};
   World world(pair.scene, {}, {});
   TurnCounter turns(world);
-  const int steps = int(100 * 2 * pi / 12 * 60);
+  const int steps = int(105 * 2 * pi / 12 * 60); /* speeding up takes some */
   for (int k = 0; k < steps; ++k) {
     world.step();
     turns.note();
@@ -303,7 +303,9 @@ TEST_CASE("couplings: a differential gives both wheels the mean that its cage ha
   CHECK(cage > 1);
   CHECK(right - left > 0.5);
   CHECK(left + right == Approx(2 * cage).epsilon(1e-3));
-  CHECK(worst_error(world) < 1e-4);
+  /* the load of the brake, 0.1 N m and as much again, over the stiffness of a joint at what turns with the planet */
+  const double w = 2 * pi * 60, light = moments_of(scene, scene.bodies[3]).y() * (1.6 * 1.6);
+  CHECK(worst_error(world) == Approx(0.2 / (light * w * w)).epsilon(0.3));
 }
 
 TEST_CASE("couplings: a planetary gear turns its arm as Willis says", "[physics]")
@@ -375,7 +377,7 @@ TEST_CASE("couplings: a pendulum mimics another, as an integrator in double has 
     }
     const auto turn = world.precise_bodies()[0].orientation;
     errors.push_back(2 * std::atan2(turn[0], turn[3]) - q);
-    CHECK(worst_error(world) < 1e-3);
+    CHECK(worst_error(world) < 0.15 * step);
   }
   CAPTURE(errors[0], errors[1], errors[2]);
   CHECK(std::abs(errors[0]) < 0.03);

@@ -64,13 +64,13 @@ TEST_CASE("couplings that hold are accepted")
   CHECK(complaint_of([](Coupling &) {}).empty());
   CHECK(complaint_of([](Coupling &c) { c.teeth_b = -30; }).empty());
   CHECK(complaint_of([](Coupling &c) {
-          c = {.type = CouplingType::rack_and_pinion, .joint_b = 2, .teeth_a = 9, .travel = -1};
+          c = {.name = "", .type = CouplingType::rack_and_pinion, .joint_b = 2, .teeth_a = 9, .travel = -1};
         }).empty());
   CHECK(complaint_of([](Coupling &c) {
-          c = {.type = CouplingType::pulley, .joint_a = 2, .joint_b = 4, .offset = 3};
+          c = {.name = "", .type = CouplingType::pulley, .joint_a = 2, .joint_b = 4, .offset = 3};
         }).empty());
   CHECK(complaint_of([](Coupling &c) {
-          c = {.type = CouplingType::mimic, .joint_a = 0, .joint_b = 3, .ratio = -2};
+          c = {.name = "", .type = CouplingType::mimic, .joint_a = 0, .joint_b = 3, .ratio = -2};
         }).empty());
 }
 
@@ -130,7 +130,7 @@ TEST_CASE("couplings of one colour share no body that can be pushed")
   for (uint32_t i = 0; i < 100; ++i) connect_bodies(i % 3 == 0 ? no_body : i % 3 == 1 ? 100 : (i + 7) % 100, i);
   for (uint32_t k = 0; k < 150; ++k)
     scene.couplings.push_back(
-        {.joint_a = k < 70 ? 0 : k % 100, .joint_b = 1 + (k * 17) % 99, .teeth_a = 9, .teeth_b = 5});
+        {.name = "", .joint_a = k < 70 ? 0 : k % 100, .joint_b = 1 + (k * 17) % 99, .teeth_a = 9, .teeth_b = 5});
   std::erase_if(scene.couplings, [](const Coupling &c) { return c.joint_a == c.joint_b; });
   validate(scene, "graph");
   const CouplingGraph graph = coupling_graph_of(scene);
@@ -152,14 +152,21 @@ TEST_CASE("couplings of one colour share no body that can be pushed")
 TEST_CASE("couplings are written and read back, and a fault of one is named by its place in the file")
 {
   Scene scene = coupled_scene();
-  scene.couplings.push_back(
-      {.type = CouplingType::pulley, .joint_a = 2, .joint_b = 4, .ratio = 0x1.8p-3f, .offset = 3, .only_pulls = false});
-  scene.couplings.push_back({.type = CouplingType::mimic,
+  scene.couplings.push_back({.name = "",
+                             .type = CouplingType::pulley,
+                             .joint_a = 2,
+                             .joint_b = 4,
+                             .ratio = 0x1.8p-3f,
+                             .offset = 3,
+                             .only_pulls = false});
+  scene.couplings.push_back({.name = "",
+                             .type = CouplingType::mimic,
                              .joint_a = 5,
                              .joint_b = 3,
                              .coordinate_a = JointCoordinate::rotation_z,
                              .ratio = -2});
-  scene.couplings.push_back({.type = CouplingType::rack_and_pinion, .joint_b = 2, .teeth_a = -9, .travel = 1.0f / 3});
+  scene.couplings.push_back(
+      {.name = "", .type = CouplingType::rack_and_pinion, .joint_b = 2, .teeth_a = -9, .travel = 1.0f / 3});
   const std::string text = to_scene_json(scene);
   CHECK(parse_scene_json(text, "mill.json").couplings == scene.couplings);
   CHECK(to_scene_json(parse_scene_json(text, "mill.json")) == text);
