@@ -109,7 +109,7 @@ TEST_CASE("couplings that cannot be are refused in one line")
   as(CouplingType::pulley, "offset is inf", [&](Coupling &c) { c.offset = infinity; });
   as(CouplingType::mimic, "ratio is 0", [](Coupling &c) { c.ratio = 0; });
   as(CouplingType::mimic, "ratio is nan", [&](Coupling &c) { c.ratio = nan; });
-  as(CouplingType::mimic, "ratio is 1e+09", [](Coupling &c) { c.ratio = 1e9f; });
+  as(CouplingType::mimic, "ratio is 1000000000", [](Coupling &c) { c.ratio = 1e9f; });
   as(CouplingType::mimic, "coordinate_a is not free in a joint of type hinge",
      [](Coupling &c) { c.coordinate_a = JointCoordinate::direction_y; });
 }
@@ -183,5 +183,5 @@ TEST_CASE("couplings are written and read back, and a fault of one is named by i
   CHECK_THAT(with("\"teeth_a\": 12", "\"teeth_a\": 1.5"),
              ContainsSubstring("mill.json: couplings[0].teeth_a: is 1.5; a whole number"));
   CHECK_THAT(with("\"pulley\"", "\"winch\""), ContainsSubstring("couplings[1].type"));
-  CHECK_THAT(with("\"teeth_a\": 12", "\"teeth\": 12"), ContainsSubstring("couplings[0]: unknown key \"teeth\""));
+  CHECK_THAT(with("\"teeth_a\": 12", "\"teeth\": 12"), ContainsSubstring("couplings[0].teeth: unknown key"));
 }
