@@ -50,7 +50,7 @@ inline Scene coupling_crowd(uint64_t seed = 1, uint32_t wheels = 90)
   for (uint32_t k = 0; k < wheels; ++k) {
     Coupling coupling;
     coupling.type = static_cast<CouplingType>(random.below(4));
-    coupling.joint_a = k < 70 && k % 7 != 0 ? turning[0] : any_of_joints(turning);
+    coupling.joint_a = k < 80 && k % 14 != 0 ? turning[0] : any_of_joints(turning);
     if (coupling.joint_a == turning[0] && coupling.type == CouplingType::pulley) coupling.type = CouplingType::gear;
     switch (coupling.type) {
     case CouplingType::gear:
@@ -79,6 +79,29 @@ inline Scene coupling_crowd(uint64_t seed = 1, uint32_t wheels = 90)
     if (coupling.joint_a != coupling.joint_b || coupling.type == CouplingType::rack_and_pinion)
       scene.couplings.push_back(coupling);
   }
+  return scene;
+}
+
+/* Pairs of damped pendulums, the two of each coupled. Bodies 2 i and 2 i + 1 are a pair. */
+inline Scene coupled_pendulums(uint32_t pairs = 8)
+{
+  using namespace physics_tests;
+  Scene scene = empty_scene();
+  scene.name = "coupled pendulums";
+  for (uint32_t i = 0; i < 2 * pairs; ++i) {
+    Body &body = add_body(scene, BodyType::dynamic, box_shape(0.2f, 0.3f, 0.2f), {1.0 * i, 0, 0.1 * (i / 2)});
+    body.angular_damping = 6;
+    connect(scene, JointType::hinge, no_body, i, {1.0 * i, 0.5, 0});
+  }
+  for (uint32_t i = 0; i < pairs; ++i) {
+    Coupling coupling;
+    coupling.type = i % 2 ? CouplingType::gear : CouplingType::mimic;
+    coupling.joint_a = 2 * i;
+    coupling.joint_b = 2 * i + 1;
+    if (i % 2) coupling.teeth_a = 10, coupling.teeth_b = i % 4 == 1 ? 20 : -20;
+    scene.couplings.push_back(coupling);
+  }
+  std::reverse(scene.couplings.begin(), scene.couplings.end());
   return scene;
 }
 
