@@ -132,8 +132,8 @@ Scene motor_mill(const SceneValues &v)
   return scene;
 }
 
-/* --- crane: a trolley on a beam, and a rope over it that lifts a load while a winch on the mast pulls; two parts of the
- * rope carry the load
+/* --- crane: a trolley on a beam, and a rope over it that lifts a load while a winch on the mast pulls; two parts of
+ * the rope carry the load
  *
  *   winch |  trolley
  *     |====|==[]==========|     the slider of the trolley and that of the winch have motors

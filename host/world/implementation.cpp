@@ -55,7 +55,8 @@ World::Implementation::Implementation(Beginning beginning, const Placement &plac
       backends(shared ? PlacedBackends(*shared, features_run())
                       : PlacedBackends(AutomaticPlacement::first_of(placement), features_run())),
       buffers(memory, backends), joint_graph(joint_graph_of(scene, std::max(special.worlds, 1u))),
-      coupling_graph(coupling_graph_of(scene, std::max(special.worlds, 1u))), joint_order(scene, joint_graph), slots(std::move(beginning.slots)),
+      coupling_graph(coupling_graph_of(scene, std::max(special.worlds, 1u))), joint_order(scene, joint_graph),
+      slots(std::move(beginning.slots)),
       launcher(memory, [this](Kernel kernel) -> Backend & { return backends.of(kernel); }), parts(memory)
 {
   check_built(scene_features, scene, settings, scene.name);

@@ -1,5 +1,5 @@
-/* scene_tables.h - the shapes, materials, joints and couplings of the scenes of a batch, one scene after the other in the scene of
- * them all. Scenes with equal shapes and materials, such as copies of one, share these. */
+/* scene_tables.h - the shapes, materials, joints and couplings of the scenes of a batch, one scene after the other in
+ * the scene of them all. Scenes with equal shapes and materials, such as copies of one, share these. */
 #pragma once
 
 #include <cstdint>
@@ -33,7 +33,7 @@ private:
   void add_table(const Scene &scene, Scene &all);
 
   std::vector<Table> tables_;
-  std::vector<uint32_t> table_of_;        /* by world */
+  std::vector<uint32_t> table_of_;                               /* by world */
   std::vector<size_t> first_joint_ = {0}, first_coupling_ = {0}; /* of each world, and the end */
 };
 

@@ -71,8 +71,7 @@ SHARED void hook_couplings_item(GLOBAL const uint *coupling_a, GLOBAL const uint
   if (one == INDEX_NONE || other == INDEX_NONE) return;
   for (uint k = 0; k < 4u; ++k) {
     uint a = (k & 1u) != 0u ? joint_a[one] : joint_b[one], b = (k & 2u) != 0u ? joint_a[other] : joint_b[other];
-    if (a != INDEX_NONE && b != INDEX_NONE)
-      hook_bodies(body_flags, island_label, island_next, counts, round, a, b);
+    if (a != INDEX_NONE && b != INDEX_NONE) hook_bodies(body_flags, island_label, island_next, counts, round, a, b);
   }
 }
 

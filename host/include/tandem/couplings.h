@@ -45,8 +45,8 @@ struct Coupling {
   uint32_t joint_a = 0, joint_b = 0;
   JointCoordinate coordinate_a = JointCoordinate::usual, coordinate_b = JointCoordinate::usual;
   /* Of a gear, both; of a pinion, teeth_a. Wheels whose axes x point the same way mesh on the outside if both have the
-   * same sign, and turn in opposite ways; a wheel in a ring, or joined by a chain, has the other sign. A load that forces
-   * them by more than half a tooth makes them skip one. */
+   * same sign, and turn in opposite ways; a wheel in a ring, or joined by a chain, has the other sign. A load that
+   * forces them by more than half a tooth makes them skip one. */
   int32_t teeth_a = 0, teeth_b = 0;
   float travel = 0;       /* of a rack, m for a turn of the pinion; below 0: it goes the other way */
   float ratio = 1;        /* of a pulley and a mimic */

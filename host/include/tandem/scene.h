@@ -82,7 +82,7 @@ struct Scene {
   std::vector<Body> bodies;
   std::vector<Joint> joints;
   std::vector<Coupling> couplings; /* of joints */
-  std::vector<std::string> notes; /* of the loader, a line each: what of its file the scene has in another way */
+  std::vector<std::string> notes;  /* of the loader, a line each: what of its file the scene has in another way */
 };
 
 /* Throws InputError that names the first body, shape, material or joint that cannot be simulated: non-finite or

@@ -64,8 +64,8 @@ size_t words_of(World &world, Buffer buffer)
 {
   const BufferRow &row = row_of(buffer);
   const size_t bodies = bodies_of(world);
-  const bool is_of_joints = row.capacity == Capacity::JOINTS || row.capacity == Capacity::JOINT_AXES ||
-                            row.capacity == Capacity::COUPLINGS;
+  const bool is_of_joints =
+      row.capacity == Capacity::JOINTS || row.capacity == Capacity::JOINT_AXES || row.capacity == Capacity::COUPLINGS;
   const size_t items = row.capacity == Capacity::BODIES            ? bodies
                        : row.capacity == Capacity::BODIES_PLUS_ONE ? bodies + 1
                        : is_of_joints                              ? world.memory().bytes(buffer) / item_bytes(buffer)
