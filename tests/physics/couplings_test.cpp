@@ -163,7 +163,7 @@ TEST_CASE("couplings: gears on a frame that floats change no momentum", "[physic
   scene.couplings = {gear(0, 1, 20, 30)};
   scene.joints[0].rotations[0] = {.target_velocity = 8, .motor = true, .max_force = 0.3f};
   for (Body &body : scene.bodies) body.linear_velocity = {0.3f, -0.2f, 0.1f};
-  World world(scene, {}, in_double);
+  World world(scene, {}, GENERATE(Placement{"serial", {}, false}, in_double));
   const Momentum before = momentum_of(world);
   run(world, 300);
   const Momentum after = momentum_of(world);
