@@ -436,9 +436,19 @@ typedef struct {
   BUFFER(cached_joint_angular_impulse, float4, angular)                                                                \
   BUFFER(cached_joint_axis_impulse, float4, axis)
 
+/* Joints that are coupled, and how; the joints of a coupling are numbered by their places. */
+#define GROUP_couplings(BUFFER)                                                                                        \
+  BUFFER(coupling_a, uint, a)                                                                                          \
+  BUFFER(coupling_b, uint, b)                                                                                          \
+  BUFFER(coupling_kind, uint, kind)                                                                                    \
+  BUFFER(coupling_row, float4, row)
+
 typedef struct {
   GROUP_joints(READ_MEMBER)
 } read_joints;
+typedef struct {
+  GROUP_couplings(READ_MEMBER)
+} read_couplings;
 typedef struct {
   GROUP_joint_axes(READ_MEMBER)
 } read_joint_axes;

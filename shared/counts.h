@@ -61,6 +61,8 @@ enum {
   COUNT_JOINTS,        /* set by the host */
   COUNT_COMMIT_JOINTS, /* these, as the other ranges of the commit */
   COUNT_BROKEN_JOINTS, /* by the loads of the step: joints/loads.h */
+  COUNT_COUPLINGS,        /* set by the host */
+  COUNT_COMMIT_COUPLINGS, /* these, as the other ranges of the commit */
   COUNT_GRID_X, /* cells of the uniform grid along each axis */
   COUNT_GRID_Y,
   COUNT_GRID_Z,
@@ -123,7 +125,9 @@ enum {
   WORLD_COLOR_START = COLOR_START + COLOR_ENTRIES,
   /* The ranges of the joints sorted by colour, stored as those of COLOR_START; set by the host. */
   JOINT_COLOR_START = WORLD_COLOR_START + (int)COLOR_LIMIT,
-  COUNT_TOTAL = JOINT_COLOR_START + COLOR_ENTRIES
+  /* The same of the couplings. */
+  COUPLING_COLOR_START = JOINT_COLOR_START + COLOR_ENTRIES,
+  COUNT_TOTAL = COUPLING_COLOR_START + COLOR_ENTRIES
 };
 
 enum {

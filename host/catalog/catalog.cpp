@@ -13,6 +13,7 @@
 #include "host/catalog/builders.h"
 #include "host/catalog/closed_forms.h"
 #include "host/catalog/joints.h"
+#include "host/catalog/machines.h"
 #include "host/catalog/meshes.h"
 #include "host/catalog/shapes.h"
 #include "host/catalog/structures.h"
@@ -259,6 +260,7 @@ const std::vector<BuiltInScene> &catalog()
     for (BuiltInScene &scene : talk_scenes()) all.push_back(std::move(scene));
     for (BuiltInScene &scene : closed_form_scenes()) all.push_back(std::move(scene));
     for (BuiltInScene &scene : joint_scenes()) all.push_back(std::move(scene));
+    for (BuiltInScene &scene : machine_scenes()) all.push_back(std::move(scene));
     return all;
   }();
   return rows;

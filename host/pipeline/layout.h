@@ -19,6 +19,7 @@ struct Sizes {
   TreeSizes trees;
   uint32_t joints = 0;
   uint32_t joint_axes = 0;   /* the most of one joint */
+  uint32_t couplings = 0;
   uint32_t joined_pairs = 0; /* entries of their table */
   uint32_t pairs = 0;      /* capacity */
   uint32_t cells = 0;      /* capacity */

@@ -34,12 +34,26 @@ std::vector<std::pair<int, uint32_t>> entries_of(const SceneCounts &scene)
           {COUNT_BATCH_ITEMS, TILE * batch_cells_for(scene.bodies)}};
 }
 
+namespace {
+
+std::vector<std::pair<int, uint32_t>> entries_by_color(int total, int first, std::span<const uint32_t> starts)
+{
+  std::vector<std::pair<int, uint32_t>> entries{{total, starts.back()}};
+  for (size_t color = 0; color < starts.size(); ++color)
+    entries.emplace_back(first + static_cast<int>(color), starts[color]);
+  return entries;
+}
+
+} // namespace
+
 std::vector<std::pair<int, uint32_t>> joint_entries_of(std::span<const uint32_t> starts)
 {
-  std::vector<std::pair<int, uint32_t>> entries{{COUNT_JOINTS, starts.back()}};
-  for (size_t color = 0; color < starts.size(); ++color)
-    entries.emplace_back(JOINT_COLOR_START + static_cast<int>(color), starts[color]);
-  return entries;
+  return entries_by_color(COUNT_JOINTS, JOINT_COLOR_START, starts);
+}
+
+std::vector<std::pair<int, uint32_t>> coupling_entries_of(std::span<const uint32_t> starts)
+{
+  return entries_by_color(COUNT_COUPLINGS, COUPLING_COLOR_START, starts);
 }
 
 void set_count(Memory &memory, uint32_t entry, uint32_t value)

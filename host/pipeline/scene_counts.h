@@ -22,6 +22,8 @@ struct SceneCounts {
 std::vector<std::pair<int, uint32_t>> entries_of(const SceneCounts &scene);
 /* The entries of joints. starts: of each colour, of the overflow joints, and the end (host/scene/joint_graph.h). */
 std::vector<std::pair<int, uint32_t>> joint_entries_of(std::span<const uint32_t> starts);
+/* The same of couplings. */
+std::vector<std::pair<int, uint32_t>> coupling_entries_of(std::span<const uint32_t> starts);
 /* Whether an entry is one of the scene's. */
 bool is_told_by_scene(uint32_t entry);
 void set_count(Memory &memory, uint32_t entry, uint32_t value);

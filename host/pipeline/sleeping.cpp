@@ -30,6 +30,7 @@ void find_islands(StepLaunches &step)
   for (uint32_t round = 0; round < rounds; ++round) {
     step.run(Kernel::hook_islands, {round});
     if (step.has(FEATURE_JOINTS)) step.run(Kernel::hook_joints, {round});
+    if (step.has(FEATURE_COUPLINGS)) step.run(Kernel::hook_couplings, {round});
     step.run(Kernel::jump_islands, {round});
   }
   step.run(Kernel::finish_islands, {rounds});

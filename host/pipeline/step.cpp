@@ -49,6 +49,7 @@ public:
       weigh_standing();
     }
     if (has(FEATURE_JOINTS)) run(Kernel::prepare_joints);
+    if (has(FEATURE_COUPLINGS)) run(Kernel::prepare_couplings);
     run_extensions(StepPoint::constraints);
     row_of(settings().solver).launch(*this);
     if (has(FEATURE_CONTINUOUS)) keep_out_of_walls();
@@ -244,6 +245,7 @@ private:
       run(Kernel::cache_rolling);
     }
     if (has(FEATURE_JOINTS)) run(Kernel::cache_joints);
+    if (has(FEATURE_COUPLINGS)) run(Kernel::cache_couplings);
     if (const auto keep = row_of(settings().solver).commit) keep(*this);
     run_extensions(StepPoint::commit);
   }

@@ -40,6 +40,7 @@ struct StepPlan {
   uint32_t island_rounds = 4;
   uint32_t colors = 16; /* up to COLOR_LIMIT + 1: the overflow constraints */
   uint32_t joint_colors = 0; /* COLOR_LIMIT + 1: there are overflow joints */
+  uint32_t coupling_colors = 0; /* the same of couplings */
   uint32_t rounds = 16;
   SettledColors settled;
   bool apart = false;     /* no pair was found for so long that a step looks for pairs alone */

@@ -78,6 +78,19 @@ void StepLaunches::run_overflow_joints(Kernel kernel, const Values &values)
   else run(kernel, values);
 }
 
+void StepLaunches::for_each_coupling_color(Kernel kernel, const Values &values)
+{
+  for (uint32_t color = 0; color < std::min(plan_.coupling_colors, COLOR_LIMIT); ++color)
+    run_range(kernel, COUPLING_COLOR_START + color, COUPLING_COLOR_START + color + 1, values);
+}
+
+void StepLaunches::run_overflow_couplings(Kernel kernel, const Values &values)
+{
+  if (plan_.coupling_colors <= COLOR_LIMIT) return;
+  if (row_of(kernel).items != items_given) run(kernel, values);
+  else run_range(kernel, COUPLING_COLOR_START + COLOR_OVERFLOW, COUNT_COUPLINGS, values);
+}
+
 void StepLaunches::for_each_color(Kernel kernel, Kernel overflow, const Values &values)
 {
   for_each_color(kernel, values);

@@ -42,6 +42,10 @@ public:
   void for_each_joint_color(Kernel joints, Kernel overflow);
   /* Launches a kernel over the overflow joints, if there are some: in a batch, an item starts at each of them. */
   void run_overflow_joints(Kernel kernel, const Values &values = {});
+  /* Launches a kernel of couplings once for each of their colours. */
+  void for_each_coupling_color(Kernel kernel, const Values &values = {});
+  /* Launches a kernel over the couplings past the last colour, if there are some: over each, or one item for all. */
+  void run_overflow_couplings(Kernel kernel, const Values &values = {});
   /* From now on, the colours of a batch of worlds are the constraints of those worlds that have overflow constraints,
    * or all again. */
   void limit_to_worlds_with_overflow(bool limited) { limited_ = limited; }

@@ -38,6 +38,8 @@ struct UsedAxis {
   JointAxis axis;
 };
 TANDEM_API std::vector<UsedAxis> axes_used_by(const Joint &joint);
+/* The kind of directions[axis], or of rotations[axis - 3]; JOINT_AXIS_NONE: it is not free. */
+uint32_t kind_of_axis(const Joint &joint, size_t axis);
 
 /* Whether y of frame b stays at right angles to x of frame a, and the joint turns about both. */
 inline bool crosses(JointType type) { return type == JointType::universal || type == JointType::wheel; }

@@ -73,6 +73,8 @@ std::array<uint32_t, 6> axis_kinds_of(const Joint &joint)
   return kinds;
 }
 
+uint32_t kind_of_axis(const Joint &joint, size_t axis) { return axis_kinds_of(joint)[axis]; }
+
 std::vector<UsedAxis> axes_used_by(const Joint &joint)
 {
   const std::array<uint32_t, 6> kinds = axis_kinds_of(joint);

@@ -226,6 +226,7 @@ void validate(const Scene &scene, const std::string &where)
   for (size_t i = 0; i < scene.materials.size(); ++i) validate(scene.materials[i], i, where);
   for (size_t i = 0; i < scene.bodies.size(); ++i) validate(scene, scene.bodies[i], i, where);
   for (size_t i = 0; i < scene.joints.size(); ++i) validate(scene, scene.joints[i], i, where);
+  for (size_t i = 0; i < scene.couplings.size(); ++i) validate(scene, scene.couplings[i], i, where);
 }
 
 std::vector<std::string> warnings_of(const Scene &scene, const std::string &where)

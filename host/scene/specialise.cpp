@@ -11,6 +11,7 @@
 #include "host/runtime/interface/features.h"
 #include "host/runtime/interface/pair_tests.h"
 #include "host/scene/axis_bits.h"
+#include "host/scene/coupling_graph.h"
 #include "host/scene/joint_buffers.h"
 #include "host/scene/shape_bounds.h"
 #include "shared/body_codes.h"
@@ -353,7 +354,7 @@ Features features_of(const Scene &scene, const Settings &settings)
       pairs | list_features(pairs) | point_features(pairs) | convex_features(scene) | body_features(scene);
   features |= narrowphase_features(scene, features, settings) | support_features(features, settings) |
               solver_features(settings.solver);
-  features |= joint_features(scene);
+  features |= joint_features(scene) | coupling_features(scene);
   if (settings.events) features |= FEATURE_EVENTS;
   if (settings.solver == Solver::soft_step) features |= FEATURE_SUBSTEP_WARM_START;
   return features;

@@ -13,6 +13,7 @@ void World::Implementation::note_batch(Recorder &recorder) const
   recorder.note(Kernel::find_failed_bodies);
   recorder.note(Kernel::reset_worlds);
   if (!scene.joints.empty()) recorder.note(Kernel::reset_joints);
+  if (!scene.couplings.empty()) recorder.note(Kernel::reset_couplings);
   if (settings.events) recorder.note(Kernel::reset_touching);
   if (plan.forces) recorder.note(Kernel::reset_forces);
 }

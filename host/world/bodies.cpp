@@ -466,9 +466,11 @@ std::vector<uint32_t> World::Implementation::distinct_indices(const char *call, 
 void World::Implementation::destroy(std::span<const BodyId> ids)
 {
   distinct_indices("destroy_bodies", ids);
+  const std::vector<uint32_t> joints_of_destroyed = joints_of_bodies(slots_of("destroy_bodies", ids));
+  refuse_coupled("destroy_bodies", "it cannot be destroyed", joints_of_destroyed);
   if (ids.empty()) return;
   settle();
-  destroy_joints_in(joints_of_bodies(slots_of("destroy_bodies", ids)));
+  destroy_joints_in(joints_of_destroyed);
   wake_bodies(slots_of("destroy_bodies", ids), true);
   const std::vector<uint32_t> indices = distinct_indices("destroy_bodies", ids);
   buffers.make_ready(sizes());

@@ -55,7 +55,8 @@ World::Implementation::Implementation(Beginning beginning, const Placement &plac
       backends(shared ? PlacedBackends(*shared, features_run())
                       : PlacedBackends(AutomaticPlacement::first_of(placement), features_run())),
       buffers(memory, backends), joint_graph(joint_graph_of(scene, std::max(special.worlds, 1u))),
-      joint_order(scene, joint_graph), joint_slots(scene.joints.size()), slots(std::move(beginning.slots)),
+      coupling_graph(coupling_graph_of(scene, std::max(special.worlds, 1u))), joint_order(scene, joint_graph),
+      joint_slots(scene.joints.size()), slots(std::move(beginning.slots)),
       launcher(memory, [this](Kernel kernel) -> Backend & { return backends.of(kernel); }), parts(memory)
 {
   check_built(scene_features, scene, settings, scene.name);
@@ -70,6 +71,7 @@ World::Implementation::Implementation(Beginning beginning, const Placement &plac
   plan.bodies = beginning.room;
   scene_entries = entries_of({special.awake, special.unbounded, special.large, bodies() - special.awake});
   plan.joint_colors = joint_order.colors();
+  plan.coupling_colors = coupling_graph.colors;
   counted_bodies = special.awake;
   plan.capacity_cells = cells_for(plan.bodies);
   plan.capacity_pairs = plan.capacity_candidates = beginning.pairs;
@@ -110,6 +112,7 @@ Sizes World::Implementation::sizes() const
           .trees = trees.sizes,
           .joints = static_cast<uint32_t>(scene.joints.size()),
           .joint_axes = joint_graph.axes,
+          .couplings = static_cast<uint32_t>(scene.couplings.size()),
           .joined_pairs = joint_graph.joined_pairs,
           .pairs = plan.capacity_pairs,
           .cells = plan.capacity_cells,
@@ -281,6 +284,8 @@ void World::Implementation::stage_counts(StagedUploads &uploads) const
 {
   for (const auto &[entry, value] : scene_entries) uploads.add_count(static_cast<uint32_t>(entry), value);
   for (const auto &[entry, value] : joint_entries_of(joint_order.starts()))
+    uploads.add_count(static_cast<uint32_t>(entry), value);
+  for (const auto &[entry, value] : coupling_entries_of(coupling_graph.starts))
     uploads.add_count(static_cast<uint32_t>(entry), value);
   uploads.add_count(CAPACITY_PAIRS, plan.capacity_pairs);
   uploads.add_count(CAPACITY_CELLS, plan.capacity_cells);

@@ -26,6 +26,7 @@
 #include "host/scene/body_buffers.h"
 #include "host/scene/body_records.h"
 #include "host/scene/buffer_measures.h"
+#include "host/scene/coupling_graph.h"
 #include "host/scene/hull_buffers.h"
 #include "host/scene/joint_graph.h"
 #include "host/scene/specialise.h"
@@ -246,6 +247,7 @@ struct World::Implementation {
 
   /* --- joints that come, change and go: joint_calls.cpp ----------------------------------------------------------- */
   class PlacedJoints;
+  void refuse_coupled(const char *call, const char *why, std::span<const uint32_t> joints) const;
   void disturb_joined(std::span<const Joint> joints);
   void put_joints(std::vector<Joint> joints, const JointSlots &slots_then, std::span<const uint32_t> changed);
   bool fits_tables(const std::vector<Joint> &before, const JointGraph &graph) const;
@@ -357,6 +359,7 @@ struct World::Implementation {
   Memory memory;
   StepBuffers buffers;
   JointGraph joint_graph;
+  CouplingGraph coupling_graph;
   JointOrder joint_order;
   JointSlots joint_slots;
   std::vector<JointBreak> joint_breaks;           /* of the last step */

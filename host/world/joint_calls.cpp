@@ -68,6 +68,15 @@ bool are_all_among(const std::vector<bool> &flags, const std::vector<bool> &othe
 
 } // namespace
 
+/* Couplings have colours by the bodies of their joints. */
+void World::Implementation::refuse_coupled(const char *call, const char *why, std::span<const uint32_t> joints) const
+{
+  for (size_t k = 0; k < scene.couplings.size(); ++k)
+    for (const uint32_t joint : {scene.couplings[k].joint_a, scene.couplings[k].joint_b})
+      if (std::find(joints.begin(), joints.end(), joint) != joints.end())
+        throw InputError(fmt::format("{}: joint {}: {}, because coupling {} needs it", call, joint, why, k));
+}
+
 /* The awake bodies of joints begin their rest anew; those asleep wake. */
 void World::Implementation::disturb_joined(std::span<const Joint> joints)
 {
@@ -190,6 +199,7 @@ void World::Implementation::destroy_joints(std::span<const JointId> ids)
   std::sort(destroyed.begin(), destroyed.end());
   const auto twice = std::adjacent_find(destroyed.begin(), destroyed.end());
   if (twice != destroyed.end()) throw InputError(fmt::format("destroy_joints: joint {} is given twice", *twice));
+  refuse_coupled("destroy_joints", "it cannot be destroyed", destroyed);
   destroy_joints_in(destroyed);
 }
 
@@ -228,7 +238,10 @@ void World::Implementation::set_joints(std::span<const JointId> ids, std::span<c
   for (size_t i = 0; i < given.size(); ++i) {
     validate(scene, given[i], i, "set_joints");
     check_joined_bodies("set_joints", i, given[i]);
-    joints[changed[i]] = given[i];
+    const Joint &before = std::exchange(joints[changed[i]], given[i]);
+    if (before.type != given[i].type || before.body_a != given[i].body_a || before.body_b != given[i].body_b ||
+        !(held_by(before) == held_by(given[i])))
+      refuse_coupled("set_joints", "its type, its bodies and what it holds cannot change", std::span(&changed[i], 1));
   }
   if (!ids.empty()) put_joints(std::move(joints), joint_slots, changed);
 }

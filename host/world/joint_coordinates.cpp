@@ -9,7 +9,7 @@ namespace tandem::in_double {
 
 namespace tandem {
 
-JointCoordinate coordinate_of(const JointFrames &frames, uint32_t kind)
+CoordinateOfFrames coordinate_of(const JointFrames &frames, uint32_t kind)
 {
   const auto &[gap, a, b] = frames;
   in_double::joint j{};

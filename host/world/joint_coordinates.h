@@ -15,12 +15,12 @@ struct JointFrames {
 
 /* m or rad; and its derivative by the velocities: direction . (velocity of b - of a, at frame b) + turn . (angular
  * velocity of b - of a). */
-struct JointCoordinate {
+struct CoordinateOfFrames {
   double value;
   std::array<double, 3> direction, turn;
 };
 
 /* kind: JOINT_AXIS_ of shared/joints/joint_codes.h. */
-JointCoordinate coordinate_of(const JointFrames &frames, uint32_t kind);
+CoordinateOfFrames coordinate_of(const JointFrames &frames, uint32_t kind);
 
 } // namespace tandem

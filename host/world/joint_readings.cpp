@@ -52,7 +52,7 @@ public:
     if (held.directions != JOINT_XYZ) linear = turn(a_.axes, linear);
     const std::vector<UsedAxis> used = axes_used_by(joint_);
     for (uint32_t k = 0; k < used.size(); ++k) {
-      const JointCoordinate c = coordinate_of(frames_, used[k].kind);
+      const CoordinateOfFrames c = coordinate_of(frames_, used[k].kind);
       const float4 kept = impulses.axis(joint, k); /* drive, limit and friction */
       const double sum = double{kept.x} + double{kept.y} + double{kept.z};
       linear += sum * vector_of(c.direction);
@@ -71,7 +71,7 @@ private:
     const std::array<uint32_t, 6> kinds = axis_kinds_of(joint_);
     for (size_t k = 0; k < kinds.size(); ++k) {
       if (kinds[k] == JOINT_AXIS_NONE) continue;
-      const JointCoordinate c = coordinate_of(frames_, kinds[k]);
+      const CoordinateOfFrames c = coordinate_of(frames_, kinds[k]);
       (k < 3 ? reading.directions[k] : reading.rotations[k - 3]) = c.value;
       (k < 3 ? reading.direction_speeds[k] : reading.rotation_speeds[k - 3]) =
           vector_of(c.direction).dot(closing) + vector_of(c.turn).dot(turning);

@@ -26,6 +26,8 @@ void World::Implementation::stage_joint_tables(StagedUploads &uploads, std::span
   for (uint32_t i = 0; i < order.size(); ++i) indices[order[i]] = i;
   stage_joints(uploads, scene, joint_graph, joint_order.joints(), indices, plan.bodies);
   stage_bodies_of_joints(uploads, scene, joint_graph, joint_order.awake(), indices, first_joined_pair(sizes()));
+  stage_couplings(uploads, scene, coupling_graph);
+  stage_joints_of_couplings(uploads, scene, coupling_graph, joint_order.awake());
 }
 
 /* given: slots of bodies that a call would change in a way that their joints cannot follow. */

@@ -136,6 +136,7 @@ void World::Implementation::set_properties(std::span<const BodyId> ids, std::spa
   const ChangedBodies changed = changed_by(scene, settings, given, properties);
   if (is_batch()) refuse_joined("set_properties", "its type cannot change in a batch", retyped_by(scene, changed));
   const std::vector<uint32_t> retyped = joints_of_bodies(retyped_by(scene, changed));
+  refuse_coupled("set_properties", "the type of its bodies cannot change", retyped);
   refuse_idle_joints(retyped, changed.slots, changed.bodies);
   if (ids.empty()) return;
   refuse_unbuilt(changed.slots, changed.bodies); /* before anything wakes */

@@ -42,6 +42,12 @@ Joint renumbered(Joint joint, uint32_t from, uint32_t to)
   return joint;
 }
 
+Coupling renumbered(Coupling coupling, size_t from, size_t to)
+{
+  for (uint32_t *joint : {&coupling.joint_a, &coupling.joint_b}) *joint += static_cast<uint32_t>(to - from);
+  return coupling;
+}
+
 } // namespace
 
 void SceneTables::add_table(const Scene &scene, Scene &all)
@@ -63,9 +69,18 @@ void SceneTables::add(const Scene &scene, Scene &all)
   if (tables_.empty() || !has_tables(tables_.back())) add_table(scene, all);
   table_of_.push_back(static_cast<uint32_t>(tables_.size() - 1));
   const auto first_body = static_cast<uint32_t>(all.bodies.size());
-  for (const Joint &joint : scene.joints)
+  std::vector<uint32_t> number_of; /* of each joint of the scene, in that of them all */
+  for (const Joint &joint : scene.joints) {
+    number_of.push_back(static_cast<uint32_t>(all.joints.size()));
     if (!is_vacant(joint)) all.joints.push_back(renumbered(joint, 0, first_body));
+  }
+  for (Coupling coupling : scene.couplings) {
+    coupling.joint_a = number_of[coupling.joint_a];
+    coupling.joint_b = number_of[coupling.joint_b];
+    all.couplings.push_back(std::move(coupling));
+  }
   first_joint_.push_back(all.joints.size());
+  first_coupling_.push_back(all.couplings.size());
   for (Body body : scene.bodies) {
     body.shape += tables_.back().first_shape;
     body.material += tables_.back().first_material;
@@ -85,6 +100,8 @@ Scene SceneTables::scene_of(uint32_t world, const Scene &all, uint32_t bodies, c
   scene.bodies.assign(first, first + bodies);
   for (size_t k = first_joint_[world]; k < first_joint_[world + 1]; ++k)
     scene.joints.push_back(renumbered(all.joints[k], world * bodies, 0));
+  for (size_t k = first_coupling_[world]; k < first_coupling_[world + 1]; ++k)
+    scene.couplings.push_back(renumbered(all.couplings[k], first_joint_[world], 0));
   for (Body &body : scene.bodies) {
     body.shape -= own.first_shape;
     body.material -= own.first_material;

@@ -54,6 +54,7 @@ void World::Implementation::tell_joints()
   if (scene.joints.empty()) return;
   StagedUploads uploads;
   stage_bodies_of_joints(uploads, scene, joint_graph, joint_order.awake(), index_of_body, first_joined_pair(sizes()));
+  stage_joints_of_couplings(uploads, scene, coupling_graph, joint_order.awake());
   for (const auto &[entry, value] : joint_entries_of(joint_order.starts()))
     uploads.add_count(static_cast<uint32_t>(entry), value);
   uploads.add(Buffer::parameters, std::vector<Parameters>{parameters_now()});
@@ -67,6 +68,9 @@ void World::Implementation::plan_joints() noexcept
   plan.joint_colors = joint_order.colors();
   std::copy(starts.begin(), starts.end(), plan.known.begin() + JOINT_COLOR_START);
   plan.known[COUNT_JOINTS] = plan.known[COUNT_COMMIT_JOINTS] = starts.back();
+  const std::vector<uint32_t> &of_couplings = coupling_graph.starts;
+  std::copy(of_couplings.begin(), of_couplings.end(), plan.known.begin() + COUPLING_COLOR_START);
+  plan.known[COUNT_COUPLINGS] = plan.known[COUNT_COMMIT_COUPLINGS] = of_couplings.back();
 }
 
 /* One of its bodies lies among the sleepers; the other one does, too, unless it cannot sleep. */

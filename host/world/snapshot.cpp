@@ -340,6 +340,7 @@ void check_sizes(const ByteReader &reader, const SnapshotContents &contents)
     if (row.capacity == Capacity::PAIRS) items = contents.pairs;
     if (row.capacity == Capacity::JOINTS) items = joints;
     if (row.capacity == Capacity::JOINT_AXES) items = uint64_t{joints} * axes;
+    if (row.capacity == Capacity::COUPLINGS) items = contents.scene.couplings.size();
     if (bytes.size() != items * item_bytes(buffer))
       reader.fail(fmt::format("buffer {} has {} bytes; {} items need {}", row.name, bytes.size(), items,
                               items * item_bytes(buffer)));

@@ -78,6 +78,14 @@ template <Is<JointAxisChange> T, class Visit> auto visit_fields(T &record, const
   return visit(axis, to);
 }
 
+template <Is<Coupling> T, class Visit> auto visit_fields(T &record, const Visit &visit)
+{
+  auto &[name, type, joint_a, joint_b, coordinate_a, coordinate_b, teeth_a, teeth_b, travel, ratio, offset,
+         only_pulls] = record;
+  return visit(name, type, joint_a, joint_b, coordinate_a, coordinate_b, teeth_a, teeth_b, travel, ratio, offset,
+               only_pulls);
+}
+
 /* Extensions are functions of the program; snapshots name their modules. */
 template <Is<Settings> T, class Visit> auto visit_fields(T &record, const Visit &visit)
 {

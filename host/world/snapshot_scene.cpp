@@ -202,25 +202,27 @@ std::vector<Shape> get_shapes(ByteReader &reader)
 
 void put_scene(ByteWriter &writer, const Scene &scene)
 {
-  const auto &[name, gravity, shapes, materials, bodies, joints, notes] = scene;
+  const auto &[name, gravity, shapes, materials, bodies, joints, couplings, notes] = scene;
   writer.put(name);
   writer.put(gravity);
   put_shapes(writer, shapes);
   writer.put(materials);
   writer.put(bodies);
   writer.put(joints);
+  writer.put(couplings);
 }
 
 Scene get_scene(ByteReader &reader)
 {
   Scene scene;
-  auto &[name, gravity, shapes, materials, bodies, joints, notes] = scene;
+  auto &[name, gravity, shapes, materials, bodies, joints, couplings, notes] = scene;
   reader.get(name);
   reader.get(gravity);
   shapes = get_shapes(reader);
   reader.get(materials);
   reader.get(bodies);
   reader.get(joints);
+  reader.get(couplings);
   validate(scene, reader.where());
   return scene;
 }

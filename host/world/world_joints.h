@@ -1,5 +1,5 @@
-/* world_joints.h - where the joints of each world of a batch stand among those of all, which are in the order of their
- * colours (host/scene/joint_graph.h). */
+/* world_joints.h - where the joints and couplings of each world of a batch stand among those of all, which are in the
+ * order of their colours (host/scene/joint_graph.h, coupling_graph.h). */
 #pragma once
 
 #include <cstdint>
@@ -7,26 +7,35 @@
 #include <vector>
 
 #include "host/runtime/interface/kernel_list.h"
+#include "host/scene/coupling_graph.h"
 #include "host/scene/joint_graph.h"
 
 namespace tandem {
 
 struct JointPlaces {
-  std::span<const uint32_t> places; /* ascending, which is the order that the joints have in the world alone */
-  uint32_t axes;                    /* JointGraph::axes of the world alone */
-  uint32_t all;                     /* joints of the batch, which is how far planes of axes are apart */
+  std::span<const uint32_t> places;    /* ascending, which is the order that the joints have in the world alone */
+  uint32_t axes;                       /* JointGraph::axes of the world alone */
+  uint32_t all;                        /* joints of the batch, which is how far planes of axes are apart */
+  std::span<const uint32_t> couplings; /* their places */
 };
 
 class WorldJoints {
 public:
   WorldJoints() = default;
-  WorldJoints(const Scene &all, const JointGraph &graph, uint32_t worlds);
+  WorldJoints(const Scene &all, const JointGraph &graph, const CouplingGraph &couplings, uint32_t worlds);
   JointPlaces of(uint32_t world) const;
 
 private:
-  std::vector<uint32_t> places_, first_; /* world after world; where each begins, and the end */
-  std::vector<uint32_t> axes_;           /* by world */
+  std::vector<uint32_t> places_, first_;             /* world after world; where each begins, and the end */
+  std::vector<uint32_t> axes_;                       /* by world */
+  std::vector<uint32_t> couplings_, first_coupling_; /* as places_ and first_ */
 };
+
+/* Whether a buffer has rows of joints or of couplings. */
+inline bool has_rows_in_joints(Buffer buffer)
+{
+  return has_rows_of_joints(row_of(buffer)) || row_of(buffer).capacity == Capacity::COUPLINGS;
+}
 
 /* The rows that a world has alone in such a buffer, by their numbers in that of the batch. */
 std::vector<size_t> items_of_joints(Buffer buffer, const JointPlaces &joints);

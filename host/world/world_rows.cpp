@@ -58,7 +58,7 @@ std::vector<std::byte> WorldReader::row_of_world(Buffer buffer, const WorldPlace
   const size_t pairs = starts.back() - starts.front();
   if (buffer == Buffer::cached_b) return counted_from(place.first, words_of(items(buffer, starts.front(), pairs)));
   if (row_of(buffer).capacity == Capacity::PAIRS) return items(buffer, starts.front(), pairs);
-  if (has_rows_of_joints(row_of(buffer))) return rows_of_joints(buffer, place.joints);
+  if (has_rows_in_joints(buffer)) return rows_of_joints(buffer, place.joints);
   return items(buffer, place.first, place.bodies);
 }
 
@@ -69,7 +69,7 @@ std::vector<WorldRow> WorldReader::rows_of(const WorldPlace &place)
   for (const CarriedBuffer &carried : carried_) {
     if (memory_.bytes(carried.now) == 0) continue;
     WorldRow row{carried.now, row_of_world(carried.now, place, starts)};
-    if (!has_rows_of_joints(row_of(carried.now)) || !row.bytes.empty()) rows.push_back(std::move(row));
+    if (!has_rows_in_joints(carried.now) || !row.bytes.empty()) rows.push_back(std::move(row));
   }
   return rows;
 }

@@ -95,7 +95,7 @@ Worlds::Implementation::Implementation(std::span<const Scene> scenes, uint32_t c
   world.reset(new World(std::make_unique<World::Implementation>(
       World::Implementation::Beginning{std::move(all), used, std::move(special), BodySlots(count), count, pairs, false},
       placement)));
-  joints = WorldJoints(engine().scene, engine().joint_graph, tables.worlds());
+  joints = WorldJoints(engine().scene, engine().joint_graph, engine().coupling_graph, tables.worlds());
   upload_batch();
 }
 

@@ -42,6 +42,7 @@ struct Worlds::Implementation {
   void take_out_of_quarantine(std::span<const uint32_t> numbers); /* numbers: ascending, as below */
   void launch_reset(std::span<const uint32_t> numbers);
   void launch_reset_of_joints(std::span<const uint32_t> numbers);
+  void launch_reset_of(std::span<const uint32_t> rows, Buffer list, Kernel kernel);
 
   /* --- worlds as they would be alone: worlds_alone.cpp --- */
   bool has_alone(uint32_t number, Buffer buffer) const;

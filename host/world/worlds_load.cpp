@@ -148,7 +148,7 @@ void Worlds::Implementation::load_bodies(uint32_t number, const SnapshotContents
     if (all.memory.bytes(buffer) == 0) continue;
     if (row_of(buffer).capacity == Capacity::BODIES)
       all.memory.upload(buffer, rows.data(), rows.size(), first * item_bytes(buffer));
-    if (has_rows_of_joints(row_of(buffer))) load_joints(buffer, number, rows);
+    if (has_rows_in_joints(buffer)) load_joints(buffer, number, rows);
   }
   StagedUploads uploads;
   for (Quarantine taken : contents.quarantined) {

@@ -138,16 +138,22 @@ void Worlds::Implementation::launch_reset(std::span<const uint32_t> numbers)
 
 void Worlds::Implementation::launch_reset_of_joints(std::span<const uint32_t> numbers)
 {
-  World::Implementation &all = engine();
-  std::vector<uint32_t> places;
+  std::vector<uint32_t> places, coupled;
   for (const uint32_t number : numbers) {
-    const std::span<const uint32_t> own = joints.of(number).places;
-    places.insert(places.end(), own.begin(), own.end());
+    const JointPlaces own = joints.of(number);
+    places.insert(places.end(), own.places.begin(), own.places.end());
+    coupled.insert(coupled.end(), own.couplings.begin(), own.couplings.end());
   }
-  if (places.empty()) return;
-  const auto items = static_cast<uint32_t>(places.size());
-  upload_list(all.memory, Buffer::reset_joint, places, items);
-  all.launcher.launch({Kernel::reset_joints, {}, {}, COUNT_ZERO, COUNT_LENGTH, items});
+  launch_reset_of(places, Buffer::reset_joint, Kernel::reset_joints);
+  launch_reset_of(coupled, Buffer::reset_coupling, Kernel::reset_couplings);
+}
+
+void Worlds::Implementation::launch_reset_of(std::span<const uint32_t> rows, Buffer list, Kernel kernel)
+{
+  if (rows.empty()) return;
+  const auto items = static_cast<uint32_t>(rows.size());
+  upload_list(engine().memory, list, {rows.begin(), rows.end()}, items);
+  engine().launcher.launch({kernel, {}, {}, COUNT_ZERO, COUNT_LENGTH, items});
 }
 
 } // namespace tandem

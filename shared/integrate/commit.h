@@ -81,6 +81,7 @@ SHARED void finish_step_item(GLOBAL uint *counts, uint colors, uint load_rate, u
   counts[COUNT_COMMIT_PAIRS] = whole * counts[COUNT_PAIRS];
   counts[COUNT_COMMIT_CONSTRAINTS] = whole * counts[COUNT_CONSTRAINTS];
   counts[COUNT_COMMIT_JOINTS] = whole * counts[COUNT_JOINTS];
+  counts[COUNT_COMMIT_COUPLINGS] = whole * counts[COUNT_COUPLINGS];
 }
 
 SHARED void commit_bodies_item(GLOBAL const float4 *solver_velocity, GLOBAL const float4 *solver_delta_pose,

@@ -10,16 +10,20 @@ typedef struct {
   quat relative;
 } joint_frames;
 
+/* frame_a, frame_b: in the axes of their bodies. */
+SHARED joint_frames frames_between(joint j, quat frame_a, quat frame_b)
+{
+  quat a = quat_multiply(j.a.orientation, frame_a), b = quat_multiply(j.b.orientation, frame_b);
+  quat back = make_quat(-a.x, -a.y, -a.z, a.w);
+  joint_frames f = {rotation_of(a), quat_multiply(back, b)};
+  return f;
+}
+
 SHARED joint_frames frames_of(GLOBAL const Parameters *parameters, joint j, read_joints joints, item_index i)
 {
   joint_frames f = {rotation_of(j.a.orientation), j.b.orientation};
   if (!HAS_FEATURE(parameters, JOINT_FRAMES)) return f;
-  quat a = quat_multiply(j.a.orientation, quat_from(load_float4(joints.frame_a, i)));
-  quat b = quat_multiply(j.b.orientation, quat_from(load_float4(joints.frame_b, i)));
-  quat back = make_quat(-a.x, -a.y, -a.z, a.w);
-  f.axes = rotation_of(a);
-  f.relative = quat_multiply(back, b);
-  return f;
+  return frames_between(j, quat_from(load_float4(joints.frame_a, i)), quat_from(load_float4(joints.frame_b, i)));
 }
 
 #endif

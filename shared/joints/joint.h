@@ -75,18 +75,23 @@ SHARED joint_side load_side(GLOBAL const Parameters *parameters, read_turning_bo
   return s;
 }
 
-SHARED joint load_joint(GLOBAL const Parameters *parameters, read_joints joints, read_turning_bodies bodies,
-                        GLOBAL const float4 *solver_velocity, item_index i)
+/* offset: between the two centres when the step began. */
+SHARED joint joint_between(joint_side a, joint_side b, uint_lanes modes, vec3 offset)
 {
-  joint j;
-  j.a = load_side(parameters, bodies, solver_velocity, load_uint(joints.a, i), load_float4(joints.arm_a, i));
-  j.b = load_side(parameters, bodies, solver_velocity, load_uint(joints.b, i), load_float4(joints.arm_b, i));
-  j.modes = load_uint(joints.modes, i);
-  vec3 apart = add(xyz(load_float4(joints.offset, i)), subtract(j.b.translation, j.a.translation));
+  joint j = {a, b, modes, offset};
+  vec3 apart = add(offset, subtract(j.b.translation, j.a.translation));
   vec3 at_b = add(apart, j.b.arm); /* frame b, seen from the centre of a */
   j.gap = subtract(at_b, j.a.arm);
   j.a.arm = at_b;
   return j;
+}
+
+SHARED joint load_joint(GLOBAL const Parameters *parameters, read_joints joints, read_turning_bodies bodies,
+                        GLOBAL const float4 *solver_velocity, item_index i)
+{
+  joint_side a = load_side(parameters, bodies, solver_velocity, load_uint(joints.a, i), load_float4(joints.arm_a, i)),
+             b = load_side(parameters, bodies, solver_velocity, load_uint(joints.b, i), load_float4(joints.arm_b, i));
+  return joint_between(a, b, load_uint(joints.modes, i), xyz(load_float4(joints.offset, i)));
 }
 
 /* Bodies that cannot move are never written, because joints of one colour share them. */

@@ -8,7 +8,7 @@
  * and Vishkin, "An O(log n) parallel connectivity algorithm", 1982), in rounds of two kernels:
  *
  *   hook_islands   each contact sets the next label of the higher of its two labels to the lower one, by a minimum;
- *                  hook_joints does so for each joint
+ *                  hook_joints does so for each joint, and hook_couplings for the bodies of joints that are coupled
  *   jump_islands   each body takes the next label of its next label
  *
  * Minima of integers do not depend on order, and each kernel reads what the other one wrote, so every round has the
@@ -59,6 +59,20 @@ SHARED void hook_joints_item(GLOBAL const uint *joint_a, GLOBAL const uint *join
 {
   if (is_to_world(joint_a, joint_b, i)) return;
   hook_bodies(body_flags, island_label, island_next, counts, round, joint_a[i], joint_b[i]);
+}
+
+/* Each joint has a body that is dynamic, and what is coupled is one island by these. */
+SHARED void hook_couplings_item(GLOBAL const uint *coupling_a, GLOBAL const uint *coupling_b,
+                                GLOBAL const uint *joint_a, GLOBAL const uint *joint_b, GLOBAL const uint *body_flags,
+                                GLOBAL const uint *island_label, GLOBAL uint *island_next, GLOBAL uint *counts,
+                                uint round, uint i)
+{
+  uint one = coupling_a[i], other = coupling_b[i];
+  if (one == INDEX_NONE || other == INDEX_NONE) return;
+  for (uint k = 0; k < 4u; ++k) {
+    uint a = (k & 1u) != 0u ? joint_a[one] : joint_b[one], b = (k & 2u) != 0u ? joint_a[other] : joint_b[other];
+    if (a != INDEX_NONE && b != INDEX_NONE) hook_bodies(body_flags, island_label, island_next, counts, round, a, b);
+  }
 }
 
 /* The next label of a body may be older than its label, and both are labels of its island; the lower one counts. */

@@ -61,6 +61,8 @@ const std::vector<SleepingScene> &sleeping_scenes()
       {"bridge", false},
       {"wrecking-ball", false},
       {"ragdolls:n=2", true},
+      {"motor-mill:wheels=3,stones=8", false},
+      {"crane:rows=2", false},
   };
   return scenes;
 }
@@ -153,13 +155,20 @@ private:
     return found;
   }
 
-  /* Joints hold as contacts do. */
+  /* Joints hold as contacts do, and so do couplings of these. */
   void add_joints(Neighbours &neighbours, bool among_dynamic) const
   {
     for (const Joint &joint : world_.scene().joints) {
       if (joint.body_a == no_body || joint.body_b == no_body) continue;
       if (among_dynamic && !(is_dynamic_body(joint.body_a) && is_dynamic_body(joint.body_b))) continue;
       neighbours[joint.body_a].insert(joint.body_b), neighbours[joint.body_b].insert(joint.body_a);
+    }
+    for (const Coupling &coupling : world_.scene().couplings) {
+      const Joint &one = world_.scene().joints[coupling.joint_a], &other = world_.scene().joints[coupling.joint_b];
+      for (const uint32_t a : {one.body_a, one.body_b})
+        for (const uint32_t b : {other.body_a, other.body_b})
+          if (a != no_body && b != no_body && (!among_dynamic || (is_dynamic_body(a) && is_dynamic_body(b))))
+            neighbours[a].insert(b), neighbours[b].insert(a);
     }
   }
 

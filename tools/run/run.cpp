@@ -149,6 +149,7 @@ struct Outcome {
   Measurement measurement;
   Statistics statistics;
   JointErrorSummary joints;
+  double coupling_error;
   uint64_t hash, body_hash;
 };
 
@@ -183,6 +184,8 @@ Json outcome_json(const Outcome &outcome, World &world, const Placement &placeme
             {"mean", outcome.joints.mean_distance},
             {"max_angle", outcome.joints.max_angle},
             {"mean_angle", outcome.joints.mean_angle}}},
+          {"couplings", world.scene().couplings.size()},
+          {"coupling_error", outcome.coupling_error},
           {"asleep", statistics.asleep},
           {"islands", statistics.sleeping_islands},
           {"memory_bytes", world.memory().total_bytes()},
@@ -229,6 +232,8 @@ std::string facts_table(const Outcome &outcome, World &world, const Placement &p
     table.add({"joints", fmt::format("{}, open by {:.3g} mm and {:.3g} rad at most, {:.3g} mm on average", joints,
                                      outcome.joints.max_distance * 1e3, outcome.joints.max_angle,
                                      outcome.joints.mean_distance * 1e3)});
+  if (const size_t couplings = world.scene().couplings.size(); couplings > 0)
+    table.add({"couplings", fmt::format("{}, off by {:.3g} rad or m at most", couplings, outcome.coupling_error)});
   table.add({"kinetic energy", fmt::format("{:.6g} J", statistics.kinetic_energy)});
   table.add({"memory", bytes_text(world.memory().total_bytes())});
   table.add({"kernels", fmt::format("{}, built in {:.0f} ms", world.kernels().size(), world.build_milliseconds())});
@@ -271,7 +276,7 @@ Outcome simulate(World &world, const RunOptions &options, uint64_t steps)
   std::optional<EventFile> events;
   if (!options.events.empty()) events.emplace(options.events, options.scene.scene_text(), world);
   Progress progress("simulating", steps);
-  Outcome outcome{options.scene.scene_text(), steps, {}, {}, {}, 0, 0};
+  Outcome outcome{options.scene.scene_text(), steps, {}, {}, {}, 0, 0, 0};
   if (trace) trace->begin_step();
   outcome.measurement = measure(world, steps, [&](uint64_t done) {
     if (trace) trace->end_step(done - 1);
@@ -285,6 +290,8 @@ Outcome simulate(World &world, const RunOptions &options, uint64_t steps)
   if (trace) write_file("--trace", options.trace, trace->json());
   outcome.statistics = world.statistics();
   outcome.joints = summary_of(joint_errors(world.scene(), world.precise_bodies()));
+  for (const double error : coupling_errors(world.scene(), world.precise_bodies()))
+    outcome.coupling_error = std::max(outcome.coupling_error, error);
   outcome.hash = world.state_hash();
   outcome.body_hash = world.body_hash();
   return outcome;

@@ -35,6 +35,10 @@ struct JointErrorSummary {
 };
 TANDEM_API JointErrorSummary summary_of(std::span<const JointError> errors);
 
+/* How far the coordinates of each coupling are from what it holds, in rad or m of joint_a's; of a rope, how much too
+ * long its parts are. A gear or rack that has skipped a tooth is where it belongs. */
+TANDEM_API std::vector<double> coupling_errors(const Scene &scene, const PreciseBodies &states);
+
 /* Distances between simulated and true poses over the dynamic bodies, accumulated over any number of moments. */
 class TANDEM_API TrajectoryError {
 public:

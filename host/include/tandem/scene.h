@@ -1,4 +1,4 @@
-/* scene.h - what a user describes: shapes, materials, bodies, joints, gravity.
+/* scene.h - what a user describes: shapes, materials, bodies, joints and couplings of these, gravity.
  *
  * It is the first stage of the pipeline: loaders (scene files) and generators (built-in scenes) produce a Scene,
  * specialise and World consume it. Nothing here computes physics. Units are SI (metre, kilogram, second, radian),
@@ -12,6 +12,7 @@
 #include <vector>
 
 #include <tandem/axes.h>
+#include <tandem/couplings.h>
 #include <tandem/error.h>
 #include <tandem/export.h>
 #include <tandem/joints.h>
@@ -80,7 +81,8 @@ struct Scene {
   std::vector<Material> materials{Material{}}; /* at least one */
   std::vector<Body> bodies;
   std::vector<Joint> joints;
-  std::vector<std::string> notes; /* of the loader, a line each: what of its file the scene has in another way */
+  std::vector<Coupling> couplings; /* of joints */
+  std::vector<std::string> notes;  /* of the loader, a line each: what of its file the scene has in another way */
 };
 
 /* Throws InputError that names the first body, shape, material or joint that cannot be simulated: non-finite or
@@ -94,6 +96,7 @@ TANDEM_API void validate(const Shape &shape, size_t index, const std::string &wh
 TANDEM_API void validate(const Material &material, size_t index, const std::string &where);
 
 TANDEM_API void validate(const Scene &scene, const Joint &joint, size_t index, const std::string &where);
+TANDEM_API void validate(const Scene &scene, const Coupling &coupling, size_t index, const std::string &where);
 
 /* One line for each body that can be simulated, but probably not as intended: a moving mesh that is not closed has only
  * an estimated volume. Scene::notes come first. */

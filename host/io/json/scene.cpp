@@ -3,6 +3,7 @@
 #include "host/io/json/scene.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -27,6 +28,8 @@ constexpr const char *combine_names[] = {"average", "minimum", "maximum", "multi
 std::span<const char *const> names_of(BodyType) { return motion_names; }
 std::span<const char *const> names_of(Combine) { return combine_names; }
 std::span<const char *const> names_of(JointType) { return joint_type_names(); }
+std::span<const char *const> names_of(CouplingType) { return coupling_type_names(); }
+std::span<const char *const> names_of(JointCoordinate) { return joint_coordinate_names(); }
 
 template <typename Field> void each_field(const Material *, Field &&field)
 {
@@ -106,11 +109,34 @@ template <typename Field> void each_field(const JointAxis *, Field &&field)
   field("max_speed", &JointAxis::max_speed);
 }
 
+template <typename Field> void each_field(const Coupling *, Field &&field)
+{
+  field("name", &Coupling::name);
+  field("type", &Coupling::type);
+  field("joint_a", &Coupling::joint_a);
+  field("joint_b", &Coupling::joint_b);
+  field("coordinate_a", &Coupling::coordinate_a);
+  field("coordinate_b", &Coupling::coordinate_b);
+  field("teeth_a", &Coupling::teeth_a);
+  field("teeth_b", &Coupling::teeth_b);
+  field("travel", &Coupling::travel);
+  field("ratio", &Coupling::ratio);
+  field("offset", &Coupling::offset);
+  field("only_pulls", &Coupling::only_pulls);
+}
+
 /* --- reading --------------------------------------------------------------------------------- */
 
 void read_value(const JsonValue &json, std::string &value) { value = json.text(); }
 void read_value(const JsonValue &json, float &value) { value = json.number(); }
 void read_value(const JsonValue &json, uint32_t &value) { value = json.unsigned_integer(); }
+void read_value(const JsonValue &json, int32_t &value)
+{
+  const double given = json.precise_number();
+  if (!(std::abs(given) <= 1e9) || given != std::floor(given))
+    json.fail(fmt::format("is {}; a whole number is needed", given));
+  value = static_cast<int32_t>(given);
+}
 void read_value(const JsonValue &json, uint64_t &value) { value = json.long_unsigned_integer(); }
 void read_value(const JsonValue &json, bool &value) { value = json.boolean(); }
 void read_value(const JsonValue &json, Axes &value)
@@ -225,6 +251,7 @@ std::string quoted(const std::string &text)
 }
 
 std::string written(const std::string &value) { return quoted(value); }
+std::string written(int32_t value) { return fmt::format("{}", value); }
 std::string written(uint64_t value) { return fmt::format("{}", value); }
 std::string written(const Axes &axes)
 {
@@ -272,6 +299,7 @@ std::string written(const ThreeAxes &axes)
 }
 
 std::string written(const Joint &joint) { return written_record(joint, ""); }
+std::string written(const Coupling &coupling) { return written_record(coupling, ""); }
 
 std::string written(const Shape &shape) { return written_shape(shape); }
 
@@ -286,7 +314,8 @@ template <typename Record> void write_list(std::string &text, const char *key, c
 
 Scene parse_scene_json(const std::string &text, const std::string &where, OutsideFiles outside)
 {
-  static constexpr const char *keys[] = {"tandem_scene", "name", "gravity", "shapes", "materials", "bodies", "joints"};
+  static constexpr const char *keys[] = {"tandem_scene", "name",   "gravity", "shapes",
+                                         "materials",    "bodies", "joints",  "couplings"};
   const JsonDocument document = parse_json(text, where);
   const JsonValue root(document.value(), where);
   check_format(root);
@@ -300,6 +329,7 @@ Scene parse_scene_json(const std::string &text, const std::string &where, Outsid
   take_moments(root.member("bodies"), scene);
   take_densities(root.member("bodies"), scene, where);
   if (auto joints = root.find("joints")) read_value(*joints, scene.joints);
+  if (auto couplings = root.find("couplings")) read_value(*couplings, scene.couplings);
   validate(scene, where);
   return scene;
 }
@@ -318,6 +348,7 @@ std::string to_scene_json(const Scene &scene)
   write_list(text, "materials", scene.materials);
   write_list(text, "bodies", scene.bodies);
   if (!scene.joints.empty()) write_list(text, "joints", scene.joints);
+  if (!scene.couplings.empty()) write_list(text, "couplings", scene.couplings);
   return text + "}\n";
 }
 

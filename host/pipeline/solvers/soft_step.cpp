@@ -7,6 +7,13 @@
 namespace tandem {
 namespace {
 
+void solve_couplings(StepLaunches &step, uint32_t pass, bool further)
+{
+  step.for_each_coupling_color(further ? Kernel::solve_couplings_further : Kernel::solve_couplings, {pass});
+  if (step.has(FEATURE_WORLDS)) step.run_overflow_couplings(Kernel::solve_overflow_couplings_by_world, {pass, further});
+  else step.run_overflow_couplings(Kernel::solve_overflow_couplings, {pass});
+}
+
 /* further: of a batch, only worlds with overflow constraints take part. */
 void solve(StepLaunches &step, MassSplit &overflow, uint32_t pass, bool further = false)
 {
@@ -14,6 +21,7 @@ void solve(StepLaunches &step, MassSplit &overflow, uint32_t pass, bool further 
                                   {pass});
   if (step.has(FEATURE_WORLDS)) step.run_overflow_joints(Kernel::solve_overflow_joints_by_world, {pass, further});
   else step.run_overflow_joints(Kernel::solve_overflow_joints, {pass});
+  if (step.has(FEATURE_COUPLINGS)) solve_couplings(step, pass, further);
   overflow.solve(pass, overflow_iterations);
   solve_rolling(step);
 }
@@ -40,6 +48,9 @@ void warm_start_with_joints(StepLaunches &step)
   step.for_each_color_with_joints(Kernel::warm_start_joints, Kernel::warm_start);
   step.run_overflow_joints(step.has(FEATURE_WORLDS) ? Kernel::warm_start_overflow_joints_by_world
                                                     : Kernel::warm_start_overflow_joints);
+  if (!step.has(FEATURE_COUPLINGS)) return;
+  step.for_each_coupling_color(Kernel::warm_start_couplings);
+  step.run_overflow_couplings(Kernel::warm_start_overflow_couplings);
 }
 
 /* Later substeps read the impulses of the colours from warm_start_impulse; the overflow constraints apply their own in

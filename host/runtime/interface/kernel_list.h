@@ -81,6 +81,7 @@ enum class Capacity : uint8_t {
   FILTERS,
   JOINTS,
   JOINT_AXES,
+  COUPLINGS,
   BODIES,
   BODIES_PLUS_ONE,
   SLEEPERS,

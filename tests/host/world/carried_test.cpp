@@ -35,6 +35,7 @@ const std::vector<Case> cases = {
     {"compounds:n=6", Solver::pgs, Broadphase::bvh},
     {TANDEM_SOURCE_DIR "/tests/scenes/rolling_balls.json", Solver::soft_step, Broadphase::hybrid},
     {"ragdolls:n=2,height=0", Solver::soft_step, Broadphase::grid},
+    {"crane:rows=1,length=1", Solver::soft_step, Broadphase::grid},
     {"spheres:n=12,height=0", Solver::jacobi, Broadphase::grid}};
 
 /* After so many steps; with events, forces and sleeping, which carry buffers of their own. No body rests long enough to
@@ -63,7 +64,8 @@ size_t words_of(World &world, Buffer buffer)
 {
   const BufferRow &row = row_of(buffer);
   const size_t bodies = bodies_of(world);
-  const bool is_of_joints = row.capacity == Capacity::JOINTS || row.capacity == Capacity::JOINT_AXES;
+  const bool is_of_joints =
+      row.capacity == Capacity::JOINTS || row.capacity == Capacity::JOINT_AXES || row.capacity == Capacity::COUPLINGS;
   const size_t items = row.capacity == Capacity::BODIES            ? bodies
                        : row.capacity == Capacity::BODIES_PLUS_ONE ? bodies + 1
                        : is_of_joints                              ? world.memory().bytes(buffer) / item_bytes(buffer)

@@ -1,0 +1,169 @@
+/* Couplings of joints give the serial backend's bits on every backend, in batches of worlds, with bodies that sleep,
+ * and from every state that was kept or written down. */
+#include "host/scene/coupling_graph.h"
+#include "shared/counts.h"
+#include "tests/host/runtime/opencl/pocl.h"
+#include "tests/host/world/worlds.h"
+#include "tests/parity/couplings.h"
+
+namespace tandem::parity {
+namespace {
+
+using namespace physics_tests;
+using tests::BatchBesideWorlds;
+
+Settings checked()
+{
+  Settings settings;
+  settings.events = settings.check = true;
+  return settings;
+}
+
+uint64_t hash_of_run(const Scene &scene, int steps, const Settings &settings, const Placement &placement)
+{
+  World world(scene, settings, placement);
+  run(world, steps);
+  return world.state_hash();
+}
+
+/* The same number of bodies, with other couplings. */
+std::vector<Scene> coupled_worlds()
+{
+  std::vector<Scene> scenes;
+  for (int k = 0; k < 4; ++k) scenes.push_back(coupling_crowd(1));
+  scenes[1].couplings.clear();
+  scenes[2].couplings.resize(20);
+  std::reverse(scenes[3].couplings.begin(), scenes[3].couplings.end());
+  return scenes;
+}
+
+} // namespace
+
+TEST_CASE("a crowd of couplings has those that its tests are for")
+{
+  const Scene scene = coupling_crowd();
+  const CouplingGraph graph = coupling_graph_of(scene);
+  CHECK(graph.colors == COLOR_LIMIT + 1);
+  CHECK(graph.starts.back() - graph.starts[COLOR_OVERFLOW] > 2);
+  for (const CouplingType type :
+       {CouplingType::gear, CouplingType::rack_and_pinion, CouplingType::pulley, CouplingType::mimic})
+    CHECK(std::count_if(scene.couplings.begin(), scene.couplings.end(),
+                        [&](const Coupling &coupling) { return coupling.type == type; }) > 3);
+}
+
+TEST_CASE("parity on CPU: couplings of every type, and past the last colour")
+{
+  require_parity(coupling_crowd(), cpu_backends(), 20, checked());
+  require_parity(coupling_crowd(2, 40), cpu_backends(), 20, checked());
+  for (const char *scene : {"motor-mill:wheels=5,stones=20", "crane"}) require_parity(scene, cpu_backends(), 30);
+}
+
+TEST_CASE("parity on OpenCL: couplings")
+{
+  require_pocl();
+  require_parity(coupling_crowd(), {"serial", "cl:pocl"}, 8);
+  require_parity("motor-mill:wheels=3,stones=10", {"serial", "cl:pocl"}, 15);
+}
+
+TEST_CASE("couplings in their own place, and with every feature built, have the same bits")
+{
+  const Scene scene = coupling_crowd();
+  const uint64_t expected = hash_of_run(scene, 20, {}, {"serial", {}, false});
+  Settings whole;
+  whole.specialise = false;
+  CHECK(hash_of_run(scene, 20, whole, {"tbb", {}, false}) == expected);
+  for (const char *exceptions : {"joints=serial", "joints=serial:order=backward,solve=tbb"})
+    CHECK(hash_of_run(scene, 20, {}, Placement{"tbb", parse_placement(exceptions), false}) == expected);
+  Scene uncoupled = scene;
+  uncoupled.couplings.clear();
+  CHECK(hash_of_run(uncoupled, 20, {}, {"serial", {}, false}) != expected);
+}
+
+TEST_CASE("a world with couplings goes on from its snapshot with the same bits, anywhere")
+{
+  World original(coupling_crowd(4), checked(), {"serial", {}, false});
+  run(original, 15);
+  const std::vector<std::byte> snapshot = original.save();
+  World world(snapshot, {"tbb:threads=3,lanes=8", {}, false});
+  CHECK(world.save() == snapshot);
+  CHECK(world.scene().couplings == original.scene().couplings);
+  for (int k = 0; k < 15; ++k) {
+    world.step();
+    original.step();
+    REQUIRE(world.state_hash() == original.state_hash());
+  }
+  original.keep_states(8);
+  const uint64_t before = original.state_hash();
+  run(original, 3);
+  const uint64_t after = original.state_hash();
+  original.go_back(3);
+  CHECK(original.state_hash() == before);
+  run(original, 3);
+  CHECK(original.state_hash() == after);
+}
+
+TEST_CASE("parity on CPU: worlds of a batch with couplings have the bits of worlds alone")
+{
+  BatchBesideWorlds(coupled_worlds(), "serial", {}).step(15);
+  BatchBesideWorlds(coupled_worlds(), "tbb:threads=3,lanes=4", {}).step(10);
+  BatchBesideWorlds(tests::varied_scenes("motor-mill:wheels=3,stones=12", 3), "tbb", {}).step(15);
+}
+
+TEST_CASE("parity with PoCL: worlds of a batch with couplings have the bits of worlds alone")
+{
+  require_pocl();
+  BatchBesideWorlds(coupled_worlds(), "cl:pocl", {}).step(5);
+}
+
+namespace {
+
+void disturb_pendulums(World &world, uint64_t step)
+{
+  if (step % 60 == 50) world.add_impulse(world.body_ids()[step / 60 * 3 % 16], {.angular_impulse = {0.3f, 0, 0}});
+}
+
+} // namespace
+
+TEST_CASE("parity on CPU: couplings that sleep and wake with their joints")
+{
+  ComparisonRequest request;
+  request.settings.sleeping = true;
+  request.settings.sleep_time = 0.2f;
+  request.backends = cpu_backends();
+  request.steps = 320;
+  request.before_step = disturb_pendulums;
+  const Comparison comparison = compare_backends(coupled_pendulums(), request);
+  if (comparison.first_difference) FAIL(describe(*comparison.first_difference));
+}
+
+TEST_CASE("what is coupled sleeps and wakes together, and goes on from a snapshot while some sleep")
+{
+  Settings settings;
+  settings.sleeping = true;
+  settings.sleep_time = 0.2f;
+  World world(coupled_pendulums(), settings, {"serial", {}, false});
+  std::unique_ptr<World> restored;
+  size_t fallen = 0, some = 0;
+  for (uint64_t step = 0; step < 320; ++step) {
+    disturb_pendulums(world, step);
+    if (restored) disturb_pendulums(*restored, step);
+    world.step();
+    if (restored) restored->step();
+    for (uint32_t i = 0; i < 16; i += 2) {
+      REQUIRE(world.is_asleep(world.id_of(i)) == world.is_asleep(world.id_of(i + 1)));
+      fallen += world.is_asleep(world.id_of(i));
+    }
+    const auto asleep = uint32_t(world.statistics().asleep);
+    some += asleep > 0 && asleep < 16;
+    if (restored) REQUIRE(restored->body_hash() == world.body_hash());
+    else if (asleep > 0 && asleep < 16 && step > 100)
+      restored = std::make_unique<World>(world.save(), Placement{"tbb:threads=3,lanes=4", {}, false});
+  }
+  CHECK(restored);
+  CHECK(fallen > 500);
+  CHECK(some > 50);
+  /* the pair that stands farthest from its hinges pulls with 7 N m at a stiffness of 3,100 N m/rad */
+  for (const double error : coupling_errors(world.scene(), world.precise_bodies())) CHECK(error < 1.2 * 7 / 3100);
+}
+
+} // namespace tandem::parity
