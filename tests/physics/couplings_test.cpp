@@ -384,6 +384,45 @@ TEST_CASE("couplings: a pendulum mimics another, as an integrator in double has 
   CHECK(falls_with_first_order(errors));
 }
 
+TEST_CASE("couplings: a mimic follows in each coordinate that a joint leaves free", "[physics]")
+{
+  struct Follower {
+    JointType type;
+    JointCoordinate coordinate;
+    int axis; /* of the motion, turns from 3 */
+  };
+  const Follower follower = GENERATE(Follower{JointType::ball, JointCoordinate::rotation_x, 3},
+                                     Follower{JointType::ball, JointCoordinate::rotation_y, 4},
+                                     Follower{JointType::ball, JointCoordinate::rotation_z, 5},
+                                     Follower{JointType::cone_twist, JointCoordinate::rotation_y, 4},
+                                     Follower{JointType::plane, JointCoordinate::direction_y, 1},
+                                     Follower{JointType::cylindrical, JointCoordinate::direction_x, 0},
+                                     Follower{JointType::six_dof, JointCoordinate::direction_z, 2});
+  Scene scene = empty_scene({0, 0, 0});
+  for (const double x : {0.0, 5.0}) add_body(scene, BodyType::dynamic, sphere_shape(0.5f), {x, 0, 0});
+  connect(scene, follower.type, no_body, 0, {0, 0, 0});
+  connect(scene, JointType::hinge, no_body, 1, {5, 0, 0});
+  scene.joints[1].rotations[0] = {.target_position = 0.6f, .stiffness = 20, .damping = 5};
+  Coupling coupling;
+  coupling.type = CouplingType::mimic;
+  coupling.joint_b = 1;
+  coupling.coordinate_a = follower.coordinate;
+  coupling.ratio = -1.5f;
+  coupling.offset = 0.1f;
+  scene.couplings = {coupling};
+  World world(scene, {}, {"serial", {}, false});
+  run(world, 300);
+  const PreciseBodyState state = world.precise_bodies()[0];
+  const auto &q = state.orientation;
+  const int axis = follower.axis;
+  const double value = axis < 3 ? state.position[size_t(axis)] : 2 * std::atan2(q[size_t(axis - 3)], q[3]);
+  const auto &led = world.precise_bodies()[1].orientation;
+  const double angle = 2 * std::atan2(led[0], led[3]);
+  CHECK(angle == Approx(0.6).epsilon(0.02));
+  CHECK(std::abs(value) == Approx(0.1 + 1.5 * angle).epsilon(1e-4)); /* a cone has no sign */
+  CHECK(worst_error(world) < 1e-4);
+}
+
 TEST_CASE("couplings: a gear that is overloaded skips a tooth, and meshes again", "[physics]")
 {
   Pair pair(20, 30);
