@@ -72,11 +72,10 @@ std::optional<AlongAxis> along_axis(const RigidFrame &frame, const LinkJoint &jo
 Rotation axes_of_group(std::span<const LinkJoint> slides, std::span<const LinkJoint> hinges)
 {
   const Vector x = hinges.empty() ? slides.front().axis : hinges.back().axis;
-  Vector y = hinges.size() > 1 ? hinges.front().axis : any_across(x);
-  if (hinges.size() < 2)
-    for (const LinkJoint &slide : slides)
-      if (std::abs(slide.axis.dot(x)) < 0.5) y = slide.axis;
-  return rotation_of_axes(x, y);
+  if (hinges.size() > 1) return rotation_of_axes(x, hinges.front().axis);
+  for (const LinkJoint &slide : slides)
+    if (std::abs(slide.axis.dot(x)) < 0.5) return rotation_of_axes(x, slide.axis);
+  return rotation_of_axes(x, any_across(x));
 }
 
 bool place_axes(std::span<const LinkJoint> joints, GroupedJoint &group)

@@ -91,6 +91,8 @@ void RobotBuilder::group_links()
       group_of_.push_back(groups_.size() - 1);
     } else group_of_.push_back(link.parent == Link::world ? Link::world : group_of_[link.parent]);
     if (group_of_[index] == Link::world) continue;
+    for (const LinkShape &shape : link.shapes)
+      if (shape.shape.type == ShapeType::half_space) refuse(link, "moves and has a plane as its shape");
     if (welded) notes_.add(link.line, "a link without a joint that moves is part of its parent's body");
     LinkGroup &group = groups_[group_of_[index]];
     group.members.push_back(index);
@@ -201,9 +203,6 @@ void RobotBuilder::set_shape(const LinkGroup &group, const RigidFrame &frame, Bo
 
 void RobotBuilder::add_body(LinkGroup &group)
 {
-  for (size_t member : group.members)
-    for (const LinkShape &shape : robot_.links[member].shapes)
-      if (shape.shape.type == ShapeType::half_space) refuse(robot_.links[member], "moves and has a plane as its shape");
   Body body;
   RigidFrame frame;
   body.name = base_of(group).name;

@@ -73,10 +73,9 @@ void MjcfBodies::read_joint(const XmlElement &joint, const Place &at)
   movers_[at.link] = at.link;
   if (joint.name == "freejoint" || completed.text("type").value_or("") == "free") {
     if (link.parent != 0) joint.fail("an inner body does not float; put the body into <worldbody>");
-    if (link.joints.empty()) {
-      link.floats = true;
-      return;
-    }
+    if (!link.joints.empty()) joint.fail("a free joint beside others; a body that floats has no others");
+    link.floats = true;
+    return;
   }
   const std::string name = joint.text("name").value_or("");
   const std::string label = name.empty() ? fmt::format("{} joint {}", link.name, link.joints.size()) : name + at.suffix;

@@ -111,7 +111,6 @@ LinkJoint mjcf_joint(const XmlElement &joint, const MjcfCompiler &compiler, cons
   result.name = name;
   if (type == "slide") result.kind = LinkJoint::Kind::slide;
   else if (type == "ball") result.kind = LinkJoint::Kind::ball;
-  else if (type == "free") joint.fail("type is free beside other joints, or in an inner body; it floats alone");
   else if (type != "hinge") joint.fail(fmt::format("type is \"{}\"; free, ball, slide and hinge exist", type));
   result.at = outer * vector_of(joint.vector_or("pos", {0, 0, 0}));
   result.axis = turn(outer.rotation, checked_axis(joint, "axis", joint.vector_or("axis", {0, 0, 1})));

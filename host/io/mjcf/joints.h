@@ -6,7 +6,7 @@
 namespace tandem {
 
 /* joint: completed by its class; outer: the frame in the link in which its place and axis are. `name` stands for it in
- * the scene. Fails for the type free, which is no joint of a link but says that it floats. */
+ * the scene. The type free is none of these: it says that the link floats. */
 LinkJoint mjcf_joint(const XmlElement &joint, const MjcfCompiler &compiler, const RigidFrame &outer,
                      const std::string &name, XmlNotes &notes);
 
