@@ -148,7 +148,8 @@ void UrdfReader::add_link(const std::string &name, size_t parent)
     link.pose = urdf_origin(*node.joint);
     link.joints = urdf_joints(*node.joint, notes_);
     link.floats = *node.joint->text("type") == "floating";
-    if (!node.link->child("inertial")) give_mass(*node.link, link);
+    const bool moves = !link.joints.empty() || link.floats;
+    if (moves && !node.link->child("inertial")) give_mass(*node.link, link);
   } else link.floats = name != "world" && link.mass.has_value();
   robot_.links.push_back(link);
 }
