@@ -1,5 +1,5 @@
-/* robots_test.cpp - robots of URDF and MJCF move as closed forms and double precision say; those that others wrote load,
- * stand when they are driven, fall when they are not, and have the same bits on every backend and after JSON.
+/* robots_test.cpp - robots of URDF and MJCF move as closed forms and double precision say; those that others wrote
+ * load, stand when they are driven, fall when they are not, and have the same bits on every backend and after JSON.
  *
  * The files of others are not part of the source (tests/shared_data.h); without them the tests are skipped. */
 #include <filesystem>
@@ -145,7 +145,8 @@ TEST_CASE("an MJCF motor's range bounds a spring, a velocity drive turns as fast
 {
   const Scene scene = parse_scene_mjcf(R"(<mujoco><option gravity="0 0 0"/><worldbody>
       <body><joint name="j"/><geom type="box" size="1 1 1" mass="6"/></body></worldbody>
-    <actuator><velocity joint="j" kv="100" ctrlrange="2 3"/><motor joint="j" gear="4" ctrlrange="-1 1"/></actuator></mujoco>)",
+    <actuator><velocity joint="j" kv="100" ctrlrange="2 3"/>
+      <motor joint="j" gear="4" ctrlrange="-1 1"/></actuator></mujoco>)",
                                        "drive.xml");
   World world(scene);
   const double moment = 6 * 4 / 6.0; /* of a cube of 2 m */

@@ -5,8 +5,8 @@
  *
  *   one hinge, slide, ball    that joint
  *   two hinges                x is the second axis and y the first: swing about y, twist about x, the same rotation
- *   three hinges              x is the third axis, the swing is about the first two. It is R1 R2 but for a twist of half
- *                             the product of their angles
+ *   three hinges              x is the third axis, the swing is about the first two. It is R1 R2 but for a twist of
+ *                             half the product of their angles
  *   slides, then hinges       directions of the same frame
  *
  * That needs axes at right angles which meet. This is not a public header.

@@ -28,8 +28,8 @@ class MjcfDefaults {
 public:
   MjcfDefaults() { classes_["main"]; }
   void read(const XmlElement &top);
-  /* The element with the attributes of its class, or of the class of the body it is in, below its own. Fails if there is
-   * no such class. */
+  /* The element with the attributes of its class, or of the class of the body it is in, below its own. Fails if there
+   * is no such class. */
   XmlElement completed(const XmlElement &element, const std::string &class_of_body) const;
 
 private:

@@ -18,8 +18,8 @@ public:
       : compiler_(compiler), defaults_(defaults), outside_(outside), notes_(notes), scene_(scene)
   {}
   void read_assets(const XmlElement &asset);
-  /* geom: completed by its class; outer: the frame in the link in which its pose is. Nothing, with a note, for a geom of
-   * a kind that has no shape here. */
+  /* geom: completed by its class; outer: the frame in the link in which its pose is. Nothing, with a note, for a geom
+   * of a kind that has no shape here. */
   std::optional<MjcfGeom> read(const XmlElement &geom, const RigidFrame &outer);
 
 private:

@@ -1,5 +1,5 @@
-/* joints_test.cpp - joints, actuators and equalities of MJCF: limits, springs and drives by hand, and groups of joints of
- * one body that are driven to angles whose rotation Eigen computes in double. */
+/* joints_test.cpp - joints, actuators and equalities of MJCF: limits, springs and drives by hand, and groups of joints
+ * of one body that are driven to angles whose rotation Eigen computes in double. */
 #include <numbers>
 
 #include <tandem/world.h>

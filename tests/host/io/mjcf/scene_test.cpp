@@ -1,5 +1,5 @@
-/* scene_test.cpp - bodies, geoms, classes and contacts of MJCF against figures worked out by hand, by brute force, or in
- * double with Eigen, and what is listed since it cannot be held. */
+/* scene_test.cpp - bodies, geoms, classes and contacts of MJCF against figures worked out by hand, by brute force, or
+ * in double with Eigen, and what is listed since it cannot be held. */
 #include <numbers>
 
 #include <fmt/format.h>
