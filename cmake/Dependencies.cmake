@@ -6,6 +6,7 @@ find_package(nlohmann_json REQUIRED)
 find_package(fmt REQUIRED)
 find_package(TinyGLTF REQUIRED)
 find_package(tinyobjloader REQUIRED)
+find_package(tinyxml2 REQUIRED)
 
 if(TANDEM_BUILD_COMMAND)
   find_package(CLI11 REQUIRED)

@@ -10,6 +10,7 @@ endfunction()
 set_target_properties(tandem_io_objects PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
 join_sources(gltf "io/gltf/.*|io/input_file")
 join_sources(json "io/json/.*|io/obj/.*")
+join_sources(robots "io/(articulated|mjcf|stl|urdf|xml)/.*")
 join_sources(catalog "catalog/.*")
 join_sources(written "io/glb/.*|io/contact_problem/.*|io/output_file")
 

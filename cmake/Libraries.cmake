@@ -86,7 +86,8 @@ endif()
 
 tandem_library(NAME tandem SOURCES ${physics_sources} USES TBB::tbb OpenCL::OpenCL)
 tandem_library(NAME tandem_io SOURCES ${io_sources} LINKS tandem
-  USES fmt::fmt TinyGLTF::TinyGLTF tinyobjloader::tinyobjloader $<BUILD_INTERFACE:nlohmann_json::nlohmann_json>)
+  USES fmt::fmt TinyGLTF::TinyGLTF tinyobjloader::tinyobjloader tinyxml2::tinyxml2
+  $<BUILD_INTERFACE:nlohmann_json::nlohmann_json>)
 set(libraries tandem tandem_io)
 if(TANDEM_BUILD_COMMAND)
   tandem_library(NAME tandem_verify SOURCES ${verify_sources} LINKS tandem_io tandem USES fmt::fmt)

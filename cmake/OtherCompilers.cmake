@@ -16,4 +16,5 @@ foreach(library tandem tandem_io)
   set_target_properties(borrowed_${library} PROPERTIES IMPORTED_LOCATION ${TANDEM_OBJECTS_FROM}/lib${library}.a)
 endforeach()
 target_link_libraries(borrowed_tandem INTERFACE TBB::tbb OpenCL::OpenCL fmt::fmt)
-target_link_libraries(borrowed_tandem_io INTERFACE borrowed_tandem TinyGLTF::TinyGLTF tinyobjloader::tinyobjloader)
+target_link_libraries(borrowed_tandem_io INTERFACE borrowed_tandem TinyGLTF::TinyGLTF tinyobjloader::tinyobjloader
+  tinyxml2::tinyxml2)

@@ -34,6 +34,7 @@ build  need libcli11-dev          the command line of `tandem`
 build  need nlohmann-json3-dev    scene files and --json
 build  need libtinygltf-dev       glTF scenes and animations
 build  need libtinyobjloader-dev  Wavefront OBJ files of shapes
+build  need libtinyxml2-dev       URDF and MJCF files
 build  need libpng-dev            pictures of scenes
 build  need libfmt-dev            text formatting
 opencl want pocl-opencl-icd       PoCL: an OpenCL device on the CPU
@@ -50,6 +51,7 @@ aarch64 want libtbb-dev:arm64          and its libraries, as for the library its
 aarch64 want ocl-icd-opencl-dev:arm64  the same
 aarch64 want libtinygltf-dev:arm64     the same
 aarch64 want libtinyobjloader-dev:arm64  the same
+aarch64 want libtinyxml2-dev:arm64     the same
 aarch64 want libfmt-dev:arm64          the same
 bullet need libbullet-dev         Bullet, whose broadphase is timed beside ours
 END

@@ -7,6 +7,8 @@
 #include "host/catalog/catalog.h"
 #include "host/io/gltf/scene.h"
 #include "host/io/json/scene.h"
+#include "host/io/mjcf/scene.h"
+#include "host/io/urdf/scene.h"
 
 namespace tandem {
 namespace {
@@ -28,6 +30,8 @@ Scene load_scene(const std::string &spec_or_path, OutsideFiles outside)
   std::string extension = lower_extension(spec_or_path);
   if (extension == ".json") return read_scene_json(spec_or_path, outside);
   if (extension == ".gltf" || extension == ".glb") return read_scene_gltf(spec_or_path, outside);
+  if (extension == ".urdf") return read_scene_urdf(spec_or_path, outside);
+  if (extension == ".xml" || extension == ".mjcf") return read_scene_mjcf(spec_or_path, outside);
   return build_scene(parse_scene_spec(spec_or_path));
 }
 

@@ -53,13 +53,14 @@ MassProperties mesh_mass(const TriangleMesh &mesh, const std::string &where);
 TANDEM_API MassProperties polyhedron_mass(std::span<const Vec3> vertices, std::span<const Triangle> triangles);
 
 /* The same shape with another mass. */
-MassProperties with_mass(const MassProperties &shape, double mass);
+TANDEM_API MassProperties with_mass(const MassProperties &shape, double mass);
 
 /* The shape rotated by x y z w (unit length) about its origin, then translated. */
-MassProperties placed(const MassProperties &shape, const std::array<double, 4> &rotation, const Double3 &position);
+TANDEM_API MassProperties placed(const MassProperties &shape, const std::array<double, 4> &rotation,
+                                 const Double3 &position);
 
 /* All parts as one rigid body; overlapping parts count twice. */
-MassProperties compound_mass(std::span<const MassProperties> parts);
+TANDEM_API MassProperties compound_mass(std::span<const MassProperties> parts);
 
 /* The principal frame that is rotated least from the shape's axes. Moments that floats cannot distinguish
  * (principal_tolerance, relative to the largest) are treated as equal, which leaves the frame free to rotate about
@@ -69,6 +70,6 @@ struct PrincipalAxes {
   std::array<double, 4> rotation{0, 0, 0, 1}; /* x y z w, w >= 0: rotates the principal frame into the shape's axes */
 };
 constexpr double principal_tolerance = 1e-6;
-PrincipalAxes principal_axes(const SymmetricMatrix &inertia);
+TANDEM_API PrincipalAxes principal_axes(const SymmetricMatrix &inertia);
 
 } // namespace tandem

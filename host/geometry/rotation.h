@@ -37,6 +37,6 @@ inline Matrix rotation_matrix(const Rotation &q)
 
 /* The quaternion of a rotation matrix, with w >= 0. The largest component is computed first, so that no division is by
  * a small number. */
-Rotation rotation_of(const Matrix &m);
+TANDEM_API Rotation rotation_of(const Matrix &m);
 
 } // namespace tandem

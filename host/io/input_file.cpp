@@ -104,4 +104,12 @@ std::string read_file_beside(const std::string &scene, const std::string &name, 
   }
 }
 
+bool lacks_file_beside(const std::string &scene, const std::string &name)
+{
+  if (name.empty() || name.find('\0') != std::string::npos) return false;
+  const files::path folder = files::path(scene).parent_path(), place = place_of(folder / name);
+  std::error_code error;
+  return is_below(place, place_of(folder)) && !files::exists(place, error) && !error;
+}
+
 } // namespace tandem

@@ -32,4 +32,7 @@ std::string read_file(const std::string &path);
 std::string read_file_beside(const std::string &scene, const std::string &name, OutsideFiles outside,
                              const std::string &asks);
 
+/* True if that file would lie in the folder of the scene and does not exist. */
+bool lacks_file_beside(const std::string &scene, const std::string &name);
+
 } // namespace tandem

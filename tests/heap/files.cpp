@@ -51,10 +51,19 @@ std::vector<std::string> write_scenes(const Scratch &folder)
                        R"("collider":{"geometry":{"shape":0},"physicsMaterial":0}}}},)" +
                        collider(1, R"("translation":[0,2,0],)", R"(,"collisionFilter":0)"),
               .document = materials}));
+  write(folder.file("joints.gltf"),
+        gltf({.nodes = R"({"name":"Hinge","extensions":{"KHR_physics_rigid_bodies":{"joint":{"connectedNode":1,)"
+                       R"("joint":0}}}},{"name":"Pin"},{"name":"Cup","children":[1],"extensions":)"
+                       R"({"KHR_physics_rigid_bodies":{"motion":{"mass":2},"collider":{"geometry":{"shape":0}}}}})",
+              .document =
+                  R"("physicsJoints":[{"limits":[{"linearAxes":[0,1,2],"min":0,"max":0},)"
+                  R"({"angularAxes":[1,2],"min":0,"max":0},{"angularAxes":[0],"min":-1,"max":1}],)"
+                  R"("drives":[{"type":"angular","mode":"acceleration","axis":0,"stiffness":3,"damping":1}]}])"}));
   std::vector<std::string> scenes;
-  for (const char *name : {"obj.json", "mesh.gltf", "hull.gltf", "compound.gltf"}) scenes.push_back(folder.file(name));
+  for (const char *name : {"obj.json", "mesh.gltf", "hull.gltf", "compound.gltf", "joints.gltf"})
+    scenes.push_back(folder.file(name));
   for (const char *name : {"every_shape.json", "few_hulls.json", "few_trees.json", "three_bodies.json", "triggers.json",
-                           "tilted_box_on_plane.gltf"})
+                           "tilted_box_on_plane.gltf", "arm.urdf", "four_bar.xml"})
     scenes.push_back(of_tests(name));
   return scenes;
 }

@@ -19,6 +19,7 @@ struct Command {
 
 Command devices_command(CLI::App &parser);
 Command scenes_command(CLI::App &parser);
+Command convert_command(CLI::App &parser);
 Command run_command(CLI::App &parser);
 Command replay_command(CLI::App &parser);
 Command diff_command(CLI::App &parser);

@@ -156,9 +156,9 @@ void refuse_empty_values(const CLI::App &parser)
 
 std::vector<Command> add_commands(CLI::App &parser)
 {
-  return {devices_command(parser), scenes_command(parser), run_command(parser),    replay_command(parser),
-          diff_command(parser),    plan_command(parser),   bench_command(parser),  report_command(parser),
-          stability_command(parser), contact_problem_command(parser)};
+  return {devices_command(parser), scenes_command(parser),    convert_command(parser),        run_command(parser),
+          replay_command(parser),  diff_command(parser),      plan_command(parser),           bench_command(parser),
+          report_command(parser),  stability_command(parser), contact_problem_command(parser)};
 }
 
 int execute_parsed(const std::vector<Command> &commands)
@@ -183,8 +183,9 @@ int parse_and_execute(int count, char **arguments)
       "2 bad use or input, or an output that cannot be written.";
   parser.footer(status); /* of commands without their own */
   const std::vector<Command> commands = add_commands(parser);
-  parser.footer("SCENE is a file (.json, .gltf, .glb) or name:key=value,... - `tandem scenes` lists the names.\n" +
-                status);
+  parser.footer(
+      "SCENE is a file (.json, .gltf, .glb, .urdf, .xml) or name:key=value,... - `tandem scenes` lists the names.\n" +
+      status);
   try {
     parser.parse(count, arguments);
   } catch (const CLI::Success &asked) { /* --help, --version */

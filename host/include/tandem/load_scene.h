@@ -18,9 +18,9 @@ namespace tandem {
 enum class OutsideFiles { refused, allowed };
 
 /* A path that ends in .json (docs/scene-format.md), .gltf or .glb (KHR_implicit_shapes and KHR_physics_rigid_bodies) is
- * a file; any other text is a built-in scene: `name` or `name:key=value,key=value`. Throws InputError, one line with
- * the place, if the scene does not exist, cannot be read, is damaged, or asks for something unsupported that would
- * change the motion. */
+ * a file, and so is one in .urdf, or in .xml or .mjcf (docs/robots.md); any other text is a built-in scene: `name` or
+ * `name:key=value,key=value`. Throws InputError, one line with the place, if the scene does not exist, cannot be read,
+ * is damaged, or asks for something unsupported that would change the motion. */
 TANDEM_API Scene load_scene(const std::string &spec_or_path, OutsideFiles outside = OutsideFiles::refused);
 
 /* Reads a scene file from memory; `where` stands for the file name in messages. Throws InputError as load_scene

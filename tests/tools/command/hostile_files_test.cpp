@@ -43,6 +43,13 @@ std::string gltf_scene(const std::string &uri)
          uri + R"("}]})";
 }
 
+/* A link whose shape is a mesh. */
+std::string urdf_scene(const std::string &mesh)
+{
+  return "<robot><link name=\"base\"><collision><geometry><mesh filename=\"" + mesh +
+         "\"/></geometry></collision></link></robot>";
+}
+
 const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 0 -1\nf 1 2 3\n";
 const float corners[9] = {0, 0, 0, 1, 0, 0, 0, 0, -1};
 
@@ -78,6 +85,11 @@ TEST_CASE("hostile files: nesting is refused by its depth", "[command]")
   write(scratch.file("extras.glb"), binary);
   for (const char *name : {"open.json", "closed.json", "objects.json", "compounds.json", "extras.gltf", "extras.glb"})
     check_refused(run(scratch.file(name)), "more than 100 deep");
+  write(scratch.file("links.urdf"), "<robot>" + repeated("<link>", 15000));
+  write(scratch.file("bodies.xml"),
+        "<mujoco><worldbody>" + repeated("<body>", 15000) + repeated("</body>", 15000) + "</worldbody></mujoco>");
+  for (const char *name : {"links.urdf", "bodies.xml"})
+    check_refused(run(scratch.file(name)), "more than some hundred deep");
 }
 
 TEST_CASE("hostile files: a compound in a compound is refused, however few", "[command]")
@@ -111,15 +123,18 @@ TEST_CASE("hostile files: pipes and devices are no scenes, buffers or problems",
 {
   const Scratch scratch;
   const auto refused = [&](const std::string &arguments) { check_refused(arguments, "a regular file is needed"); };
-  for (const char *name : {"pipe.json", "pipe.gltf", "pipe.dat", "pipe.obj", "pipe.bin"})
+  for (const char *name : {"pipe.json", "pipe.gltf", "pipe.urdf", "pipe.xml", "pipe.dat", "pipe.obj", "pipe.bin"})
     REQUIRE(mkfifo(scratch.file(name).c_str(), 0600) == 0);
   for (const char *name : {"zero.json", "zero.glb", "zero.dat"}) files::create_symlink("/dev/zero", scratch.file(name));
-  for (const char *name : {"pipe.json", "pipe.gltf", "zero.json", "zero.glb"}) refused(run(scratch.file(name)));
+  for (const char *name : {"pipe.json", "pipe.gltf", "pipe.urdf", "pipe.xml", "zero.json", "zero.glb"})
+    refused(run(scratch.file(name)));
   for (const char *name : {"pipe.dat", "zero.dat"}) refused("contact-problem " + scratch.file(name));
   write(scratch.file("mesh.json"), mesh_scene("pipe.obj"));
   refused(run(scratch.file("mesh.json")));
   write(scratch.file("mesh.gltf"), gltf_scene("pipe.bin"));
   refused(run(scratch.file("mesh.gltf")));
+  write(scratch.file("mesh.urdf"), urdf_scene("pipe.obj"));
+  refused(run(scratch.file("mesh.urdf")));
   for (const std::string &page : {scratch.file("pipe.dat"), std::string("/dev/zero")})
     refused("stability --quick --only flip --solvers soft-step --out " + scratch.file("results") + " --table-in " +
             page);
