@@ -10,43 +10,17 @@
  * turn in half a substep.
  *
  * A free root keeps the momentum of the tree to rounding: the last impulse on it is what the momentum before lacks.
+ *
+ * Trees that turn too fast for the rounds to converge skip the first half, and their energy is held by a factor on the
+ * velocities within the tree (conserved.h), so no speed makes them fly apart.
  */
 #ifndef TANDEM_SHARED_ARTICULATIONS_FREE_MOTION_H
 #define TANDEM_SHARED_ARTICULATIONS_FREE_MOTION_H
 
+#include "shared/articulations/conserved.h"
 #include "shared/articulations/link_inertia.h"
-#include "shared/articulations/loads.h"
 
 #define FREE_MOTION_ROUNDS 2u
-
-/* The momentum of a link, about the point at -arm from its centre. */
-SHARED spatial_force momentum_of_link(const articulation *t, tree_link l, vec3 arm)
-{
-  spatial_motion m = load_motion(t, l.k, (uint)WORK_VELOCITY);
-  spatial_force p = {moments_times(t, l, m.angular), scale(m.linear, mass_of_link(t, l))};
-  return force_at(p, negate(arm));
-}
-/* The momentum of the tree, and the sum of WORK_FORCE, about the centre of a free root. */
-SHARED spatial_force momentum_of_tree(const articulation *t)
-{
-  spatial_force sum = no_force();
-  for (uint k = 0; k < t->most_links; ++k) {
-    tree_link l = tree_link_of(t, k);
-    spatial_force p = momentum_of_link(t, l, xyz(load_work(t, l.k, (uint)WORK_OFFSET)));
-    sum = choose_force(l.exists, add_forces(sum, p), sum);
-  }
-  return sum;
-}
-SHARED spatial_force sum_of_forces(const articulation *t)
-{
-  spatial_force sum = no_force();
-  for (uint k = 0; k < t->most_links; ++k) {
-    tree_link l = tree_link_of(t, k);
-    spatial_force f = force_at(load_force(t, l.k, (uint)WORK_FORCE), negate(xyz(load_work(t, l.k, (uint)WORK_OFFSET))));
-    sum = choose_force(l.exists, add_forces(sum, f), sum);
-  }
-  return sum;
-}
 
 /* The numbers by which joints move in h: STATE_JOINT_POSITION and the position of a free root. */
 SHARED void advance_joint(const articulation *t, tree_link l, real h)
@@ -78,13 +52,13 @@ SHARED void note_velocities(const articulation *t)
   store_root(t->links > 0u, t, (uint)ROOT_START, load_root(t, (uint)ROOT_LINEAR_VELOCITY));
 }
 /* The links keep their velocities, from which the next round starts. */
-SHARED void return_velocities(const articulation *t)
+SHARED void return_velocities_if(mask wanted, const articulation *t)
 {
   for (uint k = 0; k < t->most_links; ++k) {
     tree_link l = tree_link_of(t, k);
-    store_state(l.exists, t, l.k, (uint)STATE_JOINT_VELOCITY, load_work(t, l.k, (uint)WORK_START));
+    store_state(wanted & l.exists, t, l.k, (uint)STATE_JOINT_VELOCITY, load_work(t, l.k, (uint)WORK_START));
   }
-  store_root(t->links > 0u, t, (uint)ROOT_LINEAR_VELOCITY, load_root(t, (uint)ROOT_START));
+  store_root(wanted, t, (uint)ROOT_LINEAR_VELOCITY, load_root(t, (uint)ROOT_START));
 }
 
 /* The velocities of all joints and links, after half of the inertial forces at the velocity that this leads to. */
@@ -93,7 +67,7 @@ SHARED void first_half(const articulation *t, real h)
   note_velocities(t);
   for (uint round = 0; round < FREE_MOTION_ROUNDS; ++round) {
     load_inertial_forces(t, R(0.5) * h);
-    return_velocities(t);
+    return_velocities_if(t->links > 0u, t);
     push_all_links(t);
     settle_tree(t);
     move_links(t);
@@ -123,16 +97,29 @@ SHARED void prepare_tree(const articulation *t, real h)
   clear_pending(t);
 }
 
+/* Whether the energy within the tree, of which half a substep should change next to nothing, says that the rounds did
+ * not converge. */
+#define LARGEST_CHANGE_OF_ENERGY R(0.02)
+SHARED mask is_too_fast(const articulation *t, real before)
+{
+  real change = magnitude(energy_of_tree(t, root_velocity(t)) - before);
+  return !(change <= LARGEST_CHANGE_OF_ENERGY * before) & (t->links > 0u);
+}
+
 SHARED void move_tree_freely(const articulation *t, real h)
 {
   spatial_force momentum = momentum_of_tree(t);
+  real energy = energy_of_tree(t, zero3()), within = energy_of_tree(t, root_velocity(t));
   double_float3 before = root_position(t);
   first_half(t, h);
+  mask fast = is_too_fast(t, within);
+  if (any_of(fast)) return_velocities_if(fast, t);
   advance_joints(t, h);
   double_float3 after = root_position(t);
   momentum = force_at(momentum, add(subtract(after.high, before.high), subtract(after.low, before.low)));
   prepare_tree(t, h);
   second_half(t, momentum, h);
+  if (any_of(fast)) hold_energy_if(fast, t, momentum, energy);
 }
 
 #endif
