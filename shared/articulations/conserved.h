@@ -98,11 +98,14 @@ SHARED void scale_link_if(mask wanted, const articulation *t, tree_link l, spati
 /* What of the energy is in motion within the tree, below this share is nothing but rounding. */
 #define LEAST_ENERGY_WITHIN R(1e-4)
 
-/* The factor of velocities that takes an energy down to another. */
+/* The factor of velocities that takes an energy to another; a gain is limited, because little energy has no direction
+ * that is worth much. */
+#define LARGEST_GAIN R(2.0)
 SHARED real factor_of_energies(real now, real wanted)
 {
-  mask lowers = now > wanted;
-  return square_root(choose(lowers, maximum(wanted, R(0.0)) / choose(lowers, now, (real)R(1.0)), (real)R(1.0)));
+  mask moves = now > R(0.0);
+  real share = maximum(wanted, R(0.0)) / choose(moves, now, (real)R(1.0));
+  return square_root(choose(moves, minimum(share, LARGEST_GAIN), (real)R(1.0)));
 }
 
 SHARED void scale_links_if(mask wanted, const articulation *t, spatial_motion whole, real factor)
