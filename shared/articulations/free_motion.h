@@ -110,13 +110,12 @@ SHARED void move_tree_freely(const articulation *t, real h)
 {
   spatial_force momentum = momentum_of_tree(t);
   real energy = energy_of_tree(t, zero3()), within = energy_of_tree(t, root_velocity(t));
-  double_float3 before = root_position(t);
   first_half(t, h);
   mask fast = is_too_fast(t, within);
   if (any_of(fast)) return_velocities_if(fast, t);
+  vec3 way = scale(root_velocity(t), h); /* of the root; a difference of positions would depend on where the tree is */
   advance_joints(t, h);
-  double_float3 after = root_position(t);
-  momentum = force_at(momentum, add(subtract(after.high, before.high), subtract(after.low, before.low)));
+  momentum = force_at(momentum, way);
   prepare_tree(t, h);
   second_half(t, momentum, h);
   if (any_of(fast)) hold_energy_if(fast, t, momentum, energy);

@@ -30,8 +30,9 @@ struct Rate {
 
 Rate rate_of(const TreeModel &model, const TreeState &s)
 {
-  Rate r{{}, Vector::Zero(), DenseTree(model, s).acceleration(Column::Zero(model.size()),
-                                                              Column::Zero(6 * int(model.links.size())))};
+  Rate r{{},
+         Vector::Zero(),
+         DenseTree(model, s).acceleration(Column::Zero(model.size()), Column::Zero(6 * int(model.links.size())))};
   for (size_t k = 0; k < s.q.size(); ++k) {
     const int first = model.first(k), n = model.freedoms(k);
     Eigen::Vector4d q = Eigen::Vector4d::Zero();
@@ -81,7 +82,8 @@ TreeState after(const TreeModel &model, const TreeState &s, double time, int ste
 }
 
 /* The errors of runs with steps each half as long. */
-std::vector<double> errors_of(const TreeModel &model, const TreeState &s, const TreeState &truth, double time, int steps)
+std::vector<double> errors_of(const TreeModel &model, const TreeState &s, const TreeState &truth, double time,
+                              int steps)
 {
   std::vector<double> errors;
   for (const int n : {steps, 2 * steps, 4 * steps}) errors.push_back(distance(model, after(model, s, time, n), truth));

@@ -60,10 +60,7 @@ Column six(const spatial_motion &m)
   c << Tree::eigen(m.angular), Tree::eigen(m.linear);
   return c;
 }
-spatial_force force_of(const Column &six)
-{
-  return {Tree::vector(six.head<3>()), Tree::vector(six.tail<3>())};
-}
+spatial_force force_of(const Column &six) { return {Tree::vector(six.head<3>()), Tree::vector(six.tail<3>())}; }
 
 std::vector<uint> first_velocities(const TreeModel &model)
 {

@@ -23,8 +23,18 @@ public:
 
   articulation articulation_of(uint stride, uint item)
   {
-    return {code_.data(), link_.data(), state_.data(), root_.data(), work_.data(), next_.data(), 0u, item, stride,
-            uint(model_.links.size()), item, uint(model_.links.size())};
+    return {code_.data(),
+            link_.data(),
+            state_.data(),
+            root_.data(),
+            work_.data(),
+            next_.data(),
+            0u,
+            item,
+            stride,
+            uint(model_.links.size()),
+            item,
+            uint(model_.links.size())};
   }
 
   void set(const tree_tests::TreeState &s)
@@ -74,8 +84,7 @@ public:
       tree_tests::Vector x = tree_tests::Vector::Zero();
       for (int n = 0; n < model_.freedoms(k) && n < 3; ++n) x[n] = v[model_.first(k) + n];
       store_state(1, &t, k, row, extend(vector(x), 0));
-      if (model_.freedoms(k) == 6)
-        store_root(1, &t, root_row, extend(vector(v.segment<3>(model_.first(k) + 3)), 0));
+      if (model_.freedoms(k) == 6) store_root(1, &t, root_row, extend(vector(v.segment<3>(model_.first(k) + 3)), 0));
     }
   }
   /* WORK_PENDING as numbers of the joints, and back. */
@@ -148,8 +157,8 @@ private:
   {
     for (uint k = 0; k < a.links; ++k) {
       const tree_tests::LinkModel &l = model_.links[k];
-      code_[tree_row(&a, 1, k, 0)] =
-          (l.parent < 0 ? LINK_NO_PARENT : uint(l.parent)) | uint(l.joint) << LINK_JOINT_SHIFT;
+      code_[tree_row(&a, 1, k, 0)] = (l.parent < 0 ? LINK_NO_PARENT : uint(l.parent)) | uint(l.joint)
+                                                                                            << LINK_JOINT_SHIFT;
       const auto at = [&](uint r) -> float4 & { return link_[tree_row(&a, LINK_ROWS, k, r)]; };
       const bool implicit = (l.stiffness > 0 || l.damping > 0) && !(l.largest_force < tree_tests::infinite);
       at(LINK_FRAME_A) = row(l.from_parent, l.armature);

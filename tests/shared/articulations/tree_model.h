@@ -102,8 +102,7 @@ public:
     for (size_t k = 0; k < model.links.size(); ++k)
       for (int i = int(k); i >= 0; i = model.links[size_t(i)].parent)
         for (int n = 0; n < model.freedoms(size_t(i)); ++n)
-          jacobian_.block<6, 1>(6 * int(k), model.first(size_t(i)) + n) =
-              motion_of(size_t(i), n, poses_[k].center);
+          jacobian_.block<6, 1>(6 * int(k), model.first(size_t(i)) + n) = motion_of(size_t(i), n, poses_[k].center);
   }
 
   const std::vector<Pose> &poses() const { return poses_; }
