@@ -32,5 +32,8 @@ join_sources(verification "verify/.*")
 # Programs for gdb bring their own, unoptimised (tests/debugging).
 set_source_files_properties(${PROJECT_SOURCE_DIR}/host/runtime/interface/debug.cpp PROPERTIES
   SKIP_UNITY_BUILD_INCLUSION ON)
+# The headers of shared/ in double do not go together with those that others include in float.
+set_source_files_properties(${PROJECT_SOURCE_DIR}/host/scene/articulations.cpp PROPERTIES
+  SKIP_UNITY_BUILD_INCLUSION ON)
 # TBB's headers and the macros of shared/ do not go together.
 set_source_files_properties(${PROJECT_SOURCE_DIR}/host/runtime/parts.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)

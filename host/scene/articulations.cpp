@@ -71,7 +71,7 @@ struct ArticulationTree::Tables {
   Tables(const Scene &scene, const Articulation &articulation, const std::string &where)
       : ordered(ordered_links_of(scene, articulation, where)), gravity(vec3_of(scene.gravity))
   {
-    for (const OrderedLink &l : ordered) add(scene, l);
+    for (const OrderedLink &l : ordered) add_link(scene, l);
   }
 
   bool is_free() const { return ordered.front().is_free; }
@@ -106,7 +106,7 @@ private:
                                        row_of(moments, 0), row(0, 0, 0, 0), row(0, 0, 0, 0), row(0, 0, 0, 0)});
   }
 
-  void add(const Scene &scene, const OrderedLink &l)
+  void add_link(const Scene &scene, const OrderedLink &l)
   {
     const uint parent = l.link.parent == ArticulationLink::none ? LINK_NO_PARENT : l.link.parent;
     code.push_back(parent | joint_code(l) << LINK_JOINT_SHIFT);
