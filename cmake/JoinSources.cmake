@@ -33,8 +33,9 @@ join_sources(verification "verify/.*")
 # Programs for gdb bring their own, unoptimised (tests/debugging).
 set_source_files_properties(${PROJECT_SOURCE_DIR}/host/runtime/interface/debug.cpp PROPERTIES
   SKIP_UNITY_BUILD_INCLUSION ON)
-# The shared headers in double and in floats do not go together either.
-set_source_files_properties(${PROJECT_SOURCE_DIR}/host/world/joint_coordinates.cpp PROPERTIES
+# The headers of shared/ in double do not go together with those that others include in float.
+set_source_files_properties(${PROJECT_SOURCE_DIR}/host/scene/articulations.cpp
+  ${PROJECT_SOURCE_DIR}/host/world/joint_coordinates.cpp PROPERTIES
   SKIP_UNITY_BUILD_INCLUSION ON)
 # TBB's headers and the macros of shared/ do not go together.
 set_source_files_properties(${PROJECT_SOURCE_DIR}/host/runtime/parts.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)

@@ -41,4 +41,5 @@ join_tests(other_tests recording_command "tools/command/(bench_left_out|bench_sc
 join_tests(other_tests stability "tools/stability/")
 # These compile what their neighbours have under the same names: shared/ in double, and its trees beside the host's.
 set_source_files_properties(shared/narrowphase/convex_reference_test.cpp shared/midphase/subtree_pairs_test.cpp
-  PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  shared/articulations/articulations_test.cpp shared/articulations/articulations_motion_test.cpp
+  shared/articulations/articulations_float_test.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)

@@ -2,8 +2,8 @@
  *
  *   before the substeps    the speed of each axis is noted
  *   after each of them     the impulse of its limit, if it has one
- *   after the last one     an axis whose limit pushed, and which went towards it fast enough, gets its speed back, turned
- *                          round and times the restitution
+ *   after the last one     an axis whose limit pushed, and which went towards it fast enough, gets its speed back,
+ *                          turned round and times the restitution
  *
  * Contacts bounce likewise (solve/contact.h).
  */

@@ -8,8 +8,8 @@
  *                 \ | / cone          cone     the angle between the axes x, 0 .. pi
  *                  \|/
  *
- * After Dobrowolski, "Swing-twist decomposition in Clifford algebra", 2015. Universal joints and wheels keep the axis y of
- * frame b at right angles to x of frame a; that coordinate, `cross`, is 0. They turn about both without end:
+ * After Dobrowolski, "Swing-twist decomposition in Clifford algebra", 2015. Universal joints and wheels keep the axis y
+ * of frame b at right angles to x of frame a; that coordinate, `cross`, is 0. They turn about both without end:
  *
  *        x of a ^    ,y of b           turn     of y of b about x of a: a wheel is steered
  *               |  ,/                  spin     about y of b: it rolls

@@ -1,15 +1,15 @@
 /* loads.h - the force and the torque of each joint, and how many joints break by them.
  *
- * An impulse of a substep, divided by its time, is a force. It acts at the origin of frame b, and the torque is about that
- * point. A blow may last one substep, so the largest of a step counts. The host takes broken joints out when the step is
- * made (host/world/joint_calls.cpp).
+ * An impulse of a substep, divided by its time, is a force. It acts at the origin of frame b, and the torque is about
+ * that point. A blow may last one substep, so the largest of a step counts. The host takes broken joints out when the
+ * step is made (host/world/joint_calls.cpp).
  */
 #ifndef TANDEM_SHARED_JOINTS_LOADS_H
 #define TANDEM_SHARED_JOINTS_LOADS_H
 
 #include "shared/joints/solve.h"
 
-/* What a joint gives body b: an impulse at the origin of frame b, and an angular impulse about it; axes of the world. */
+/* What a joint gives body b, in axes of the world: an impulse at the origin of frame b, and an angular one about it. */
 typedef struct {
   vec3 linear, angular;
 } joint_total;

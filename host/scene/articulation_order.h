@@ -1,0 +1,26 @@
+/* articulation_order.h - the links of an articulation in the order of its tree, and the refusal of what is none. */
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <tandem/articulations.h>
+
+namespace tandem {
+
+/* A link with its joint as seen from its parent: frame a is on the parent, or in the world, and frame b on the link. */
+struct OrderedLink {
+  ArticulationLink link;
+  JointType type = JointType::ball; /* of a free root meaningless */
+  bool is_free = false;
+  Point position_a{0, 0, 0}, position_b{0, 0, 0};
+  Quat orientation_a{0, 0, 0, 1}, orientation_b{0, 0, 0, 1};
+  JointAxis axis; /* of one degree of freedom, or of all three of a ball */
+  float armature = 0;
+};
+
+/* Links of equal distance from the root stand in the order of Articulation::joints. */
+std::vector<OrderedLink> ordered_links_of(const Scene &scene, const Articulation &articulation,
+                                          const std::string &where);
+
+} // namespace tandem

@@ -1,0 +1,124 @@
+/* free_motion.h - moves a tree over a substep that nothing pushes: only its own momentum carries it.
+ *
+ *     at q    half of the inertial forces, at the velocity that they lead to     v -> u
+ *             the joints move with u                                              q -> q'
+ *     at q'   the other half, at the velocity u                                   u -> v'
+ *
+ * The second half is the first one backward in time, so the errors of both halves in energy cancel: they grow with
+ * neither turns nor time, as those of symmetric rules do (Hairer, Lubich and Wanner, "Geometric Numerical Integration",
+ * 2006). The first half defines u by itself and is iterated; each of its rounds reduces the error by the angle of a
+ * turn in half a substep.
+ *
+ * A free root keeps the momentum of the tree to rounding: the last impulse on it is what the momentum before lacks.
+ *
+ * Trees that turn too fast for the rounds to converge skip the first half, and their energy is held by a factor on the
+ * velocities within the tree (conserved.h), so no speed makes them fly apart.
+ */
+#ifndef TANDEM_SHARED_ARTICULATIONS_FREE_MOTION_H
+#define TANDEM_SHARED_ARTICULATIONS_FREE_MOTION_H
+
+#include "shared/articulations/conserved.h"
+#include "shared/articulations/link_inertia.h"
+
+#define FREE_MOTION_ROUNDS 2u
+
+/* The numbers by which joints move in h: STATE_JOINT_POSITION and the position of a free root. */
+SHARED void advance_joint(const articulation *t, tree_link l, real h)
+{
+  vec4 position = load_state(t, l.k, (uint)STATE_JOINT_POSITION);
+  vec3 way = scale(xyz(load_state(t, l.k, (uint)STATE_JOINT_VELOCITY)), h);
+  vec4 next =
+      make_vec4(position.x + choose(has_one_freedom(l), way.x, (real)R(0.0)), position.y, position.z, position.w);
+  mask turns = l.is_ball | l.is_free;
+  if (any_of(turns)) next = choose4(turns, quat_to_vec4(turned(quat_from(position), way)), next);
+  store_state(l.exists, t, l.k, (uint)STATE_JOINT_POSITION, next);
+  if (!any_of(l.is_free)) return;
+  double_float3 at = moved_position(root_position(t), scale(xyz(load_root(t, (uint)ROOT_LINEAR_VELOCITY)), h));
+  mask moves = l.exists & l.is_free;
+  store_root(moves, t, (uint)ROOT_POSITION, extend(at.high, R(0.0)));
+  store_root(moves, t, (uint)ROOT_POSITION + 1u, extend(at.low, R(0.0)));
+}
+SHARED void advance_joints(const articulation *t, real h)
+{
+  for (uint k = 0; k < t->most_links; ++k) advance_joint(t, tree_link_of(t, k), h);
+}
+
+SHARED void note_velocities(const articulation *t)
+{
+  for (uint k = 0; k < t->most_links; ++k) {
+    tree_link l = tree_link_of(t, k);
+    store_work(l.exists, t, l.k, (uint)WORK_START, load_state(t, l.k, (uint)STATE_JOINT_VELOCITY));
+  }
+  store_root(t->links > 0u, t, (uint)ROOT_START, load_root(t, (uint)ROOT_LINEAR_VELOCITY));
+}
+/* The links keep their velocities, from which the next round starts. */
+SHARED void return_velocities_if(mask wanted, const articulation *t)
+{
+  for (uint k = 0; k < t->most_links; ++k) {
+    tree_link l = tree_link_of(t, k);
+    store_state(wanted & l.exists, t, l.k, (uint)STATE_JOINT_VELOCITY, load_work(t, l.k, (uint)WORK_START));
+  }
+  store_root(wanted, t, (uint)ROOT_LINEAR_VELOCITY, load_root(t, (uint)ROOT_START));
+}
+
+/* The velocities of all joints and links, after half of the inertial forces at the velocity that this leads to. */
+SHARED void first_half(const articulation *t, real h)
+{
+  note_velocities(t);
+  for (uint round = 0; round < FREE_MOTION_ROUNDS; ++round) {
+    load_inertial_forces(t, R(0.5) * h);
+    return_velocities_if(t->links > 0u, t);
+    push_all_links(t);
+    settle_tree(t);
+    move_links(t);
+  }
+}
+
+/* momentum: what the tree must have, about the centre of a free root. */
+SHARED void second_half(const articulation *t, spatial_force momentum, real h)
+{
+  load_inertial_forces(t, R(0.5) * h);
+  tree_link root = tree_link_of(t, 0u);
+  if (any_of(root.is_free)) {
+    spatial_force lacks = subtract_forces(subtract_forces(momentum, momentum_of_tree(t)), sum_of_forces(t));
+    add_to_force(root.exists & root.is_free, t, 0u, (uint)WORK_FORCE, lacks);
+  }
+  push_all_links(t);
+  settle_tree(t);
+}
+
+/* The links where their joints are, and what they answer to impulses there. */
+SHARED void prepare_tree(const articulation *t, real h)
+{
+  place_links(t, h);
+  move_links(t);
+  factor_tree(t);
+  invert_link_inertias(t);
+  clear_pending(t);
+}
+
+/* Whether the energy within the tree, of which half a substep should change next to nothing, says that the rounds did
+ * not converge. */
+#define LARGEST_CHANGE_OF_ENERGY R(0.02)
+SHARED mask is_too_fast(const articulation *t, real before)
+{
+  real change = magnitude(energy_of_tree(t, root_velocity(t)) - before);
+  return !(change <= LARGEST_CHANGE_OF_ENERGY * before) & (t->links > 0u);
+}
+
+SHARED void move_tree_freely(const articulation *t, real h)
+{
+  spatial_force momentum = momentum_of_tree(t);
+  real energy = energy_of_tree(t, zero3()), within = energy_of_tree(t, root_velocity(t));
+  first_half(t, h);
+  mask fast = is_too_fast(t, within);
+  if (any_of(fast)) return_velocities_if(fast, t);
+  vec3 way = scale(root_velocity(t), h); /* of the root; a difference of positions would depend on where the tree is */
+  advance_joints(t, h);
+  momentum = force_at(momentum, way);
+  prepare_tree(t, h);
+  second_half(t, momentum, h);
+  if (any_of(fast)) hold_energy_if(fast, t, momentum, energy);
+}
+
+#endif

@@ -1,0 +1,80 @@
+/* link_inertia.h - the inverse inertia of every link within the tree: the velocity that it gets from an impulse on
+ * itself, all joints and links taking part.
+ *
+ * The effective mass of a contact or joint at a link is one product with it. Outward, with P the map by which a link
+ * follows its parent (respond.h) and W the inverse inertia of the parent,
+ *
+ *     W of the link = P W P^T + (what the joint gives by itself)
+ *
+ * (Kreutz-Delgado, Jain and Rodriguez, "Recursive formulation of operational space control", 1992). All of it in
+ * frame b, where few blocks change.
+ */
+#ifndef TANDEM_SHARED_ARTICULATIONS_LINK_INERTIA_H
+#define TANDEM_SHARED_ARTICULATIONS_LINK_INERTIA_H
+
+#include "shared/articulations/respond.h"
+
+SHARED symmetric6 followed_by_single(const articulation *t, tree_link l, placed_joint j, symmetric6 w)
+{
+  single_factor f = load_single_factor(t, l);
+  spatial_motion z = inverse_times(&w, f.u);
+  z.angular = scale(z.angular, f.inverse);
+  z.linear = scale(z.linear, f.inverse);
+  f.response = f.inverse + power_of(f.u, z) * f.inverse;
+  store_single_factor(l.exists & has_one_freedom(l), t, l, f);
+  spatial_motion s = axis_motion(l, j);
+  w.second = add_products(add_products(w.second, s.angular, z.angular, R(-2.0)), s.angular, s.angular, f.response);
+  w.first = add_products(add_products(w.first, s.linear, z.linear, R(-2.0)), s.linear, s.linear, f.response);
+  w.coupling = add_product(add_product(w.coupling, z.linear, s.angular, R(-1.0)), s.linear, z.angular, R(-1.0));
+  return w;
+}
+
+SHARED mat3 symmetric_as_matrix(symmetric3 s)
+{
+  mat3 m = {row_x(s), row_y(s), row_z(s)};
+  return m;
+}
+/* a b, and a b + factor c d */
+SHARED mat3 matrix_product(mat3 a, mat3 b)
+{
+  mat3 m = {rotate_back(b, a.x), rotate_back(b, a.y), rotate_back(b, a.z)};
+  return m;
+}
+SHARED mat3 subtract_matrices(mat3 a, mat3 b)
+{
+  mat3 m = {subtract(a.x, b.x), subtract(a.y, b.y), subtract(a.z, b.z)};
+  return m;
+}
+
+/* The turn of the link is  E w - G v + what the joint gives;  E = e D^-1. */
+SHARED symmetric6 followed_by_ball(const articulation *t, tree_link l, placed_joint j, symmetric6 w)
+{
+  ball_factor f = load_ball_factor(t, l);
+  mat3 e = symmetric_as_matrix(scaled_symmetric(f.inverse, j.implicit_inertia));
+  mat3 by_moment = subtract_matrices(times_symmetric(e, w.second), matrix_product(f.g, w.coupling));
+  mat3 by_force = subtract_matrices(matrix_product(e, transposed(w.coupling)), times_symmetric(f.g, w.first));
+  symmetric6 r;
+  r.first = w.first;
+  r.coupling = transposed(by_force);
+  r.second = add_symmetric_product(f.inverse, by_moment, e, R(1.0));
+  r.second = add_symmetric_product(r.second, by_force, f.g, R(-1.0));
+  return r;
+}
+
+/* After this, WORK_INERTIA has the inverse inertias at the centres of the links. */
+SHARED void invert_link_inertias(const articulation *t)
+{
+  for (uint k = 0; k < t->most_links; ++k) {
+    tree_link l = tree_link_of(t, k);
+    placed_joint j = load_placed_joint(t, l);
+    symmetric6 parent = choose_symmetric6(l.is_root, zero_symmetric6(), load_symmetric6(t, l.parent));
+    symmetric6 w = symmetric6_at(parent, j.from_parent);
+    mask one = has_one_freedom(l);
+    if (any_of(one)) w = choose_symmetric6(one, followed_by_single(t, l, j, w), w);
+    if (any_of(l.is_ball)) w = choose_symmetric6(l.is_ball, followed_by_ball(t, l, j, w), w);
+    w = symmetric6_at(w, j.to_center);
+    store_symmetric6(l.exists & !l.is_free, t, l.k, w);
+  }
+}
+
+#endif
