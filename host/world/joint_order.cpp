@@ -59,8 +59,8 @@ void JointOrder::find_starts(size_t awake)
   }
 }
 
-/* first: what stands at the first places, whose present joints are among these. all_from: the first place whose joint is
- * listed even if it stands there already. */
+/* first: what stands at the first places, whose present joints are among these. all_from: the first place whose joint
+ * is listed even if it stands there already. */
 JointOrder::Moves JointOrder::put(std::vector<uint32_t> first, size_t awake, size_t all_from)
 {
   Moves moves;
