@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <tandem/round_to_float.h>
 
@@ -141,7 +142,7 @@ Scene motor_mill(const SceneValues &v)
  *     |    |  ##     ....
  */
 
-uint64_t crane_bodies(const SceneValues &v) { return 4 + uint64_t(whole(v, "rows") * whole(v, "length")); }
+uint64_t crane_bodies(const SceneValues &v) { return 6 + uint64_t(whole(v, "rows") * whole(v, "length")); }
 
 void drive_axis(JointAxis &axis, double speed, double way, double force)
 {
@@ -164,6 +165,10 @@ Scene crane(const SceneValues &v)
   add_machine_part(scene, trolley, {start, height, 0}, 300, "trolley");
   add_machine_part(scene, load, {start, load_height, 0}, number(v, "mass"), "load").angular_damping = 0.5f;
   add_machine_part(scene, winch, {start - 2, height, 0}, 100, "winch");
+  const uint32_t beam = add_shape(scene, box_shape(7, 0.15f, 0.15f)),
+                 mast = add_shape(scene, box_shape(0.15f, 3.1f, 0.15f));
+  for (const auto &[shape, at] : {std::pair(beam, Point{0, height + 0.35, 0}), std::pair(mast, Point{-6.8, 3.1, 0})})
+    add_machine_part(scene, shape, at, 1, "frame").type = BodyType::fixed;
   hold_to_world(scene, JointType::slider, {start, height, 0}, 1, {0, 0, 0, 1}, {0, 0, 0, 1});
   drive_axis(scene.joints.back().directions[0], number(v, "speed"), -2 * start, 2e4);
   hold_to_world(scene, JointType::slider, {start - 2, height, 0}, 3, axis_down, axis_down);
