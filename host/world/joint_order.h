@@ -2,8 +2,9 @@
  *
  *   | colour 0 | colour 1 | ... | overflow | asleep |      kernels of a step run over the joints before those asleep
  *
- * A joint sleeps with its bodies; one that is not enabled sleeps always. Those awake stand in the order of the graph (host/scene/joint_graph.h), and those
- * asleep as they came. Falling asleep and waking cost what is awake or moves, and nothing that sleeps on.
+ * A joint sleeps with its bodies; one that is not enabled sleeps always. Those awake stand in the order of the graph
+ * (host/scene/joint_graph.h), and those asleep as they came. Falling asleep and waking cost what is awake or moves, and
+ * nothing that sleeps on.
  */
 #pragma once
 
