@@ -82,7 +82,8 @@ void JointSharing::add_motions()
   const auto depends = [&](uint32_t body) { return crowds_[body].joints > least && crowds_[body].joints <= most; };
   Responses responses(scene_);
   for (const Joint &joint : scene_.joints) {
-    if (!joint.enabled || !is_between_pushed(scene_, joint) || (!depends(joint.body_a) && !depends(joint.body_b))) continue;
+    if (!joint.enabled || !is_between_pushed(scene_, joint) || (!depends(joint.body_a) && !depends(joint.body_b)))
+      continue;
     const Response a = responses.of(joint.body_a, joint.position_a), b = responses.of(joint.body_b, joint.position_b);
     crowds_[joint.body_a].linear += share_of(a.linear, b.linear);
     crowds_[joint.body_b].linear += share_of(b.linear, a.linear);

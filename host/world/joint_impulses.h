@@ -1,5 +1,5 @@
-/* joint_impulses.h - the impulses that joints hand on to the next step, by joint of the scene, while joints change their
- * places in the buffers (host/world/joint_order.h). */
+/* joint_impulses.h - the impulses that joints hand on to the next step, by joint of the scene, while joints change
+ * their places in the buffers (host/world/joint_order.h). */
 #pragma once
 
 #include <cstdint>

@@ -79,8 +79,8 @@ struct Joint {
   std::array<JointAxis, 3> directions, rotations;
 };
 
-/* A joint of a world: its place in Scene::joints, and a generation. The place of a joint that was destroyed is used again
- * by a later one, whose generation differs. The joints of the scene itself have generation 1. */
+/* A joint of a world: its place in Scene::joints, and a generation. The place of a joint that was destroyed is used
+ * again by a later one, whose generation differs. The joints of the scene itself have generation 1. */
 struct JointId {
   uint32_t index = 0xffffffffu;
   uint32_t generation = 0; /* 0: of no joint */
