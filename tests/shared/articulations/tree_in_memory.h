@@ -1,5 +1,5 @@
-/* tree_in_memory.h - a tree of tree_model.h in the tables of shared/articulations/, in whichever precision includes this
- * within a namespace, and what the tests ask of it. */
+/* tree_in_memory.h - a tree of tree_model.h in the tables of shared/articulations/, in whichever precision includes
+ * this within a namespace, and what the tests ask of it. */
 #include "shared/articulations/dense.h"
 #include "shared/articulations/inverse_dynamics.h"
 #include "shared/articulations/substep.h"
