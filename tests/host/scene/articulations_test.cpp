@@ -150,7 +150,7 @@ TEST_CASE("articulations of a scene: links fall as the solver's joints let them,
   const std::vector<LinkPose> poses = tree.forward_kinematics(state);
   std::vector<double> errors;
   for (const int steps : {48, 96, 192}) {
-    World world(scene, stiff_settings(0.4 / steps), "serial");
+    World world(scene, stiff_settings(0.4 / steps), in_double);
     run(world, steps);
     const PreciseBodies bodies = world.precise_bodies();
     double most = 0;
