@@ -43,3 +43,6 @@ join_tests(other_tests stability "tools/stability/")
 set_source_files_properties(shared/narrowphase/convex_reference_test.cpp shared/midphase/subtree_pairs_test.cpp
   shared/articulations/articulations_test.cpp shared/articulations/articulations_motion_test.cpp
   shared/articulations/articulations_float_test.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+# Its times are those of code that is optimised as kernels are.
+set_source_files_properties(shared/articulations/articulations_time_test.cpp PROPERTIES
+  SKIP_UNITY_BUILD_INCLUSION ON SKIP_PRECOMPILE_HEADERS ON COMPILE_OPTIONS -O2)

@@ -6,10 +6,12 @@
  *       / \                 inward: from 4 to 0, every link before its parent
  *      3   4                outward: from 0 to 4
  *
- * Row r of link k of a tree stands at   block * rows + item + (k * rows + r) * stride.   With stride 1, the tree lies
- * in one piece, at the link `block`; then one thread finds all of it in few cache lines. With as many trees of one
- * shape beside each other as `stride`, the rows of neighbouring trees are neighbours; then work-items that run one tree
- * each read memory in order. The functions below work for both, and for lanes of different trees.
+ * Row r of link k of a tree stands at   block * rows + item + (k * rows + r) * stride.
+ *
+ * With stride 1, the tree lies in one piece, at the link `block`; then one thread finds all of it in few cache lines.
+ * With as many trees of one shape beside each other as `stride`, the rows of neighbouring trees are neighbours; then
+ * work-items that run one tree each read memory in order. The functions below work for both, and for lanes of different
+ * trees.
  *
  * docs/articulations.md has the figures of both layouts.
  */
