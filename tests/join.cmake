@@ -19,6 +19,7 @@ endforeach()
 join_tests(lent_tests lent_recording "host/world/recording_test")
 join_tests(lent_tests lent_geometry "host/geometry/")
 join_tests(lent_tests lent_files "host/io/|tools/")
+join_tests(lent_tests lent_robots "host/io/(mjcf|stl|urdf)/")
 join_tests(lent_tests lent_parity "parity/")
 
 set(other_tests ${TEST_SOURCES})

@@ -1,6 +1,7 @@
 /* robot_text.h - small robots as text, and what a scene made of them, for the tests of the readers of URDF and MJCF. */
 #pragma once
 
+#include <numbers>
 #include <string>
 
 #include <Eigen/Geometry>
@@ -18,6 +19,8 @@ using Eigen::Matrix3d;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 using geometry_test::complaint;
+
+inline constexpr double degree = std::numbers::pi / 180;
 
 /* No file has these names; meshes are sought beside them. */
 inline const std::string urdf_path = "/no-such-folder/robot.urdf", mjcf_path = "/no-such-folder/robot.xml";

@@ -11,8 +11,6 @@ using namespace tandem::robot_text;
 
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
-
 /* A box on joints to the world. */
 std::string on_joints(const std::string &joints)
 {

@@ -14,9 +14,7 @@ using namespace tandem::robot_text;
 
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
-
-std::string world(const std::string &inside) { return "<worldbody>" + inside + "</worldbody>"; }
+std::string in_world(const std::string &inside) { return "<worldbody>" + inside + "</worldbody>"; }
 std::string floating(const std::string &inside) { return "<body><freejoint/>" + inside + "</body>"; }
 
 const Shape &only_shape(const Scene &scene) { return scene.shapes.at(scene.bodies.at(0).shape); }
@@ -24,7 +22,7 @@ const Shape &only_shape(const Scene &scene) { return scene.shapes.at(scene.bodie
 /* The orientation of a body of the world whose geom is a box. */
 Quaterniond turn_of_body(const std::string &compiler, const std::string &attributes)
 {
-  const Scene scene = mjcf(compiler + world("<body " + attributes + "><geom type=\"box\" size=\"1 2 3\"/></body>"));
+  const Scene scene = mjcf(compiler + in_world("<body " + attributes + "><geom type=\"box\" size=\"1 2 3\"/></body>"));
   return turn_of(scene.bodies.at(0).orientation);
 }
 
@@ -32,7 +30,7 @@ Quaterniond turn_of_body(const std::string &compiler, const std::string &attribu
 
 TEST_CASE("mjcf: each type of geom is its shape, along Z, with the mass of 1000 kg/m^3")
 {
-  const auto of = [](const std::string &attributes) { return mjcf(world(floating("<geom " + attributes + "/>"))); };
+  const auto of = [](const std::string &attributes) { return mjcf(in_world(floating("<geom " + attributes + "/>"))); };
   const double pi = std::numbers::pi;
   CHECK(of(R"(size="0.1")").bodies.at(0).mass == Approx(4000 * pi / 3 * 0.001));
   CHECK(of(R"(type="box" size="0.1 0.2 0.3")").bodies.at(0).mass == Approx(8000 * 0.006));
@@ -49,7 +47,7 @@ TEST_CASE("mjcf: each type of geom is its shape, along Z, with the mass of 1000 
 
 TEST_CASE("mjcf: fromto places a capsule between two points")
 {
-  const Scene scene = mjcf(world(floating(R"(<geom type="capsule" fromto="1 2 3 1 4 3" size="0.1"/>)")));
+  const Scene scene = mjcf(in_world(floating(R"(<geom type="capsule" fromto="1 2 3 1 4 3" size="0.1"/>)")));
   const Body &body = scene.bodies.at(0);
   CHECK((vector_of_point(body.position) - Vector3d(1, 3, 3)).norm() < 1e-9);
   CHECK(only_shape(scene).size == Vec3{0.1f, 1, 0.1f});
@@ -83,7 +81,7 @@ TEST_CASE("mjcf: the ways to write a turn are those of Eigen")
 TEST_CASE("mjcf: bodies, frames and replicas stand in one another")
 {
   const Scene scene =
-      mjcf(world(R"(<body pos="1 0 0" euler="0 0 90"><body pos="2 0 0"><geom name="deep" size="1"/></body></body>
+      mjcf(in_world(R"(<body pos="1 0 0" euler="0 0 90"><body pos="2 0 0"><geom name="deep" size="1"/></body></body>
     <frame pos="0 0 5"><geom name="framed" pos="1 0 0" size="1"/></frame>
     <replicate count="11" offset="0 1 0"><body name="b" pos="3 0 0"><geom name="g" size="1"/></body></replicate>)"));
   const auto at = [&](const std::string &name) { return vector_of_point(body_named(scene, name).position); };
@@ -98,7 +96,7 @@ TEST_CASE("mjcf: classes within classes, by element, by body and by default")
 {
   const Scene scene = mjcf(R"(<default><geom size="0.1" mass="1"/>
     <default class="outer"><geom mass="2"/><default class="inner"><geom size="0.3"/></default></default></default>)" +
-                           world(R"(<body name="a"><freejoint/><geom/></body>
+                           in_world(R"(<body name="a"><freejoint/><geom/></body>
     <body name="b" childclass="outer"><freejoint/><geom/></body>
     <body name="c" childclass="outer"><freejoint/><geom class="inner"/></body>
     <body name="d" childclass="inner"><freejoint/><geom class="main" mass="9"/></body>)"));
@@ -114,7 +112,7 @@ TEST_CASE("mjcf: classes within classes, by element, by body and by default")
 
 TEST_CASE("mjcf: inertial counts instead of geoms, or not, as the compiler says")
 {
-  const std::string body = world(floating(R"(<inertial pos="0 0 1" mass="3" fullinertia="1 2 2.5 0.1 0.2 0.3"/>
+  const std::string body = in_world(floating(R"(<inertial pos="0 0 1" mass="3" fullinertia="1 2 2.5 0.1 0.2 0.3"/>
                                              <geom size="0.1" mass="5"/>)"));
   const Body given = mjcf(body).bodies.at(0);
   CHECK(given.mass == 3.0f);
@@ -128,7 +126,7 @@ TEST_CASE("mjcf: inertial counts instead of geoms, or not, as the compiler says"
 TEST_CASE("mjcf: a body without joints is part of the body that it is in")
 {
   const Scene scene =
-      mjcf(world(floating(R"(<geom size="0.1" mass="1"/><body pos="0 0 1"><geom size="0.1" mass="3"/></body>)")));
+      mjcf(in_world(floating(R"(<geom size="0.1" mass="1"/><body pos="0 0 1"><geom size="0.1" mass="3"/></body>)")));
   REQUIRE(scene.bodies.size() == 1);
   CHECK(scene.bodies[0].mass == 4.0f);
   CHECK(scene.bodies[0].position[2] == Approx(0.75));
@@ -148,7 +146,7 @@ TEST_CASE("mjcf: filters of geoms are MuJoCo's rule of contype and conaffinity, 
       bodies += fmt::format(R"(<body name="b{}"><freejoint/><geom size="1" contype="{}" conaffinity="{}"/></body>)", k,
                             bits[size_t(k)][0], bits[size_t(k)][1]);
     }
-    const Scene scene = mjcf(world(bodies) + R"(<contact><exclude body1="b1" body2="b4"/></contact>)");
+    const Scene scene = mjcf(in_world(bodies) + R"(<contact><exclude body1="b1" body2="b4"/></contact>)");
     for (size_t i = 0; i < 6; ++i)
       for (size_t k = 0; k < 6; ++k) {
         if (i == k) continue;
@@ -164,11 +162,11 @@ TEST_CASE("mjcf: filters of geoms are MuJoCo's rule of contype and conaffinity, 
 
 TEST_CASE("mjcf: friction is that of the larger geom, without friction that of the other; springs of contacts return")
 {
-  const Scene scene = mjcf(world(R"(<geom name="floor" type="plane" size="1 1 1" friction="0.8"/>)") +
-                           world(floating(R"(<geom size="1" condim="1"/>)")) +
-                           world(floating(R"(<geom size="1" condim="6" friction="0.5 0.02 0.01"/>)")) +
-                           world(floating(R"(<geom size="1" solref="-1000 0"/>)")) +
-                           world(floating(R"(<geom size="1" solref="0.02 0.5"/>)")));
+  const Scene scene = mjcf(in_world(R"(<geom name="floor" type="plane" size="1 1 1" friction="0.8"/>)") +
+                           in_world(floating(R"(<geom size="1" condim="1"/>)")) +
+                           in_world(floating(R"(<geom size="1" condim="6" friction="0.5 0.02 0.01"/>)")) +
+                           in_world(floating(R"(<geom size="1" solref="-1000 0"/>)")) +
+                           in_world(floating(R"(<geom size="1" solref="0.02 0.5"/>)")));
   const auto material = [&](size_t body) { return scene.materials.at(scene.bodies.at(body).material); };
   CHECK(material(0).static_friction == 0.8f);
   CHECK(material(0).friction_combine == Combine::maximum);
@@ -182,7 +180,7 @@ TEST_CASE("mjcf: friction is that of the larger geom, without friction that of t
 
 TEST_CASE("mjcf: a plane is solid below its Z axis")
 {
-  const Scene scene = mjcf(world(R"(<geom type="plane" size="1 1 1" pos="0 0 2" zaxis="1 0 0"/>)"));
+  const Scene scene = mjcf(in_world(R"(<geom type="plane" size="1 1 1" pos="0 0 2" zaxis="1 0 0"/>)"));
   const Body &plane = scene.bodies.at(0);
   CHECK(plane.type == BodyType::fixed);
   CHECK(only_shape(scene).type == ShapeType::half_space);
@@ -191,19 +189,20 @@ TEST_CASE("mjcf: a plane is solid below its Z axis")
 
 TEST_CASE("mjcf: gravity is that of the option, and none if a flag says so")
 {
-  const std::string body = world(floating(R"(<geom size="1"/>)"));
+  const std::string body = in_world(floating(R"(<geom size="1"/>)"));
   CHECK(mjcf(body).gravity == Vec3{0, 0, -9.81f});
   CHECK(mjcf(R"(<option gravity="0 -1.62 0"/>)" + body).gravity == Vec3{0, -1.62f, 0});
   CHECK(mjcf(R"(<option><flag gravity="disable"/></option>)" + body).gravity == Vec3{0, 0, 0});
-  CHECK(mjcf(world(R"(<body gravcomp="1"><freejoint/><geom size="1"/></body>)")).bodies.at(0).gravity_factor == 0.0f);
+  CHECK(mjcf(in_world(R"(<body gravcomp="1"><freejoint/><geom size="1"/></body>)")).bodies.at(0).gravity_factor ==
+        0.0f);
 }
 
 TEST_CASE("mjcf: what a scene does not have is listed by name, with its line and its count")
 {
-  const Scene scene = mjcf(
-      "\n" +
-      world(floating(R"(<geom size="1" rgba="1 0 0 1"/><site/><site/>)") + R"(<geom type="hfield" hfield="hills"/>)") +
-      R"(<tendon><spatial/></tendon><sensor><gyro/></sensor><keyframe><key/></keyframe>
+  const Scene scene = mjcf("\n" +
+                           in_world(floating(R"(<geom size="1" rgba="1 0 0 1"/><site/><site/>)") +
+                                    R"(<geom type="hfield" hfield="hills"/>)") +
+                           R"(<tendon><spatial/></tendon><sensor><gyro/></sensor><keyframe><key/></keyframe>
                               <option timestep="0.01"/><contact><pair/></contact><equality><distance/></equality>
                               <actuator><muscle/><motor tendon="t"/></actuator><size/>)");
   for (const char *note :
