@@ -74,6 +74,24 @@ TEST_CASE("command: scene files that cannot be read", "[command]")
   check_refused("run " + scratch.file("broken.glb"), "broken.glb");
 }
 
+TEST_CASE("command: convert writes a scene of any format, which moves as what it was read from", "[command]")
+{
+  const Scratch scratch;
+  const std::string written = scratch.file("written.json"), again = scratch.file("again.json");
+  for (const char *scene : {"arm.urdf", "four_bar.xml", "tilted_box_on_plane.gltf", "three_bodies.json"}) {
+    const std::string path = std::string(TANDEM_SOURCE_DIR "/tests/scenes/") + scene;
+    CAPTURE(scene);
+    CHECK(command("convert " + path + " " + written).status == 0);
+    CHECK(command("convert " + written + " " + again).status == 0);
+    CHECK(contents(written) == contents(again));
+    CHECK(json_of("run " + path + " --steps 30")["hash"] == json_of("run " + written + " --steps 30")["hash"]);
+  }
+  check_refused("convert castle " + written, "castle");
+  check_refused("convert " + written, "file");
+  check_refused("convert " + written + " " + written, "written.json");
+  check_refused("convert " + tiny + " /nonexistent/file.json", "/nonexistent/file.json");
+}
+
 TEST_CASE("command: files that cannot be written are refused before the run", "[command]")
 {
   for (const char *option : {"--json", "--save", "--trace", "--events"})
