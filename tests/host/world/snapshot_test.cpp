@@ -570,11 +570,12 @@ TEST_CASE("every field of a body, a material and the settings is in a snapshot",
                     19};
   CHECK(equal_fields(settings, Settings{}) == 0);
   CHECK(all_equal(copied(settings), settings));
-  const JointAxis axis{1, 2, 3, 4, 5, 6, 7, 8, true, 9, 10, 11};
+  const JointAxis axis{1, 2, 3, 4, 5, 6, 7, 8, 9, true, 10, 11, 12};
   CHECK(equal_fields(axis, JointAxis{}) == 0);
   CHECK(all_equal(copied(axis), axis));
   const Joint joint{"knee",
                     JointType::hinge,
+                    false,
                     1,
                     2,
                     {1, 2, 3},
@@ -582,6 +583,8 @@ TEST_CASE("every field of a body, a material and the settings is in a snapshot",
                     {1, 0, 0, 0},
                     {0, 1, 0, 0},
                     true,
+                    13,
+                    14,
                     {true, false, false},
                     {false, true, false},
                     {axis, axis, axis},
