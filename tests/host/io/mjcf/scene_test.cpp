@@ -160,7 +160,8 @@ TEST_CASE("mjcf: filters of geoms are MuJoCo's rule of contype and conaffinity, 
   }
 }
 
-TEST_CASE("mjcf: friction is that of the larger geom, without friction that of the other; springs of contacts return")
+TEST_CASE(
+    "mjcf: friction is that of the larger geom, without friction that of the other, and springs of contacts return")
 {
   const Scene scene = mjcf(in_world(R"(<geom name="floor" type="plane" size="1 1 1" friction="0.8"/>)") +
                            in_world(floating(R"(<geom size="1" condim="1"/>)")) +

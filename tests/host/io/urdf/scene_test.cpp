@@ -155,7 +155,7 @@ TEST_CASE("urdf: hinges that are not at right angles stay two joints, with a ten
   CHECK(has_note(scene, "bodies with 0.1 of the mass stand between them"));
 }
 
-TEST_CASE("urdf: meshes of OBJ and STL beside the file are hulls, scaled; one that is missing is listed")
+TEST_CASE("urdf: meshes of OBJ and STL beside the file are hulls, scaled, and one that is missing is listed")
 {
   const command_line::Scratch folder;
   std::filesystem::create_directories(folder.path / "arm" / "meshes");
