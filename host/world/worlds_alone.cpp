@@ -64,6 +64,7 @@ std::unique_ptr<World::Implementation> Worlds::Implementation::alone(uint32_t nu
   contents.special = specialise(contents.scene, settings);
   contents.special.features = features[number];
   contents.slots = BodySlots(bodies);
+  contents.joint_slots = JointSlots(contents.scene.joints.size());
   contents.quarantined = quarantined(number);
   for (const Quarantine &taken : contents.quarantined) contents.slots.quarantine(taken.body);
   contents.room = bodies;
