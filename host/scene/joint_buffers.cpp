@@ -133,11 +133,12 @@ private:
   }
 };
 
-/* The graph knows the bodies that the world began with; those that came later have no joints. */
+/* Bodies that came since the graph was made have no joints, nor have those that it knows and that are gone since the
+ * world went back to a state before them. */
 void stage_colors(StagedUploads &uploads, const JointGraph &graph, std::span<const uint32_t> index_of_body, size_t room)
 {
   std::vector<uint32_t> colors(2 * room);
-  for (size_t body = 0; 2 * body < graph.body_colors.size(); ++body)
+  for (size_t body = 0; body < std::min(graph.body_colors.size() / 2, index_of_body.size()); ++body)
     for (size_t word = 0; word < 2; ++word)
       colors[2 * size_t{index_of_body[body]} + word] = graph.body_colors[2 * body + word];
   uploads.add(Buffer::body_joint_colors, std::move(colors));
