@@ -21,6 +21,12 @@ join_tests(lent_tests lent_geometry "host/geometry/")
 join_tests(lent_tests lent_files "host/io/|tools/")
 join_tests(lent_tests lent_robots "host/io/(mjcf|stl|urdf)/")
 join_tests(lent_tests lent_parity "parity/")
+foreach(source IN LISTS lent_tests) # objects are borrowed by the names of groups
+  get_source_file_property(group ${source} UNITY_GROUP)
+  if(NOT group)
+    message(FATAL_ERROR "${source}: a test that is lent to sanitizer trees has no group in tests/join.cmake")
+  endif()
+endforeach()
 
 set(other_tests ${TEST_SOURCES})
 list(REMOVE_ITEM other_tests ${watched_tests} ${lent_tests})
