@@ -13,7 +13,8 @@ const std::vector<Case> &all_cases()
   static const std::vector<Case> cases = [] {
     std::vector<Case> all;
     for (auto *add : {add_mass_ratio_cases, add_structure_cases, add_setting_cases, add_spin_cases, add_motion_cases,
-                      add_scale_cases, add_degenerate_cases, add_misses_cases})
+                      add_scale_cases, add_degenerate_cases, add_misses_cases, add_chain_cases, add_machine_cases,
+                      add_conflict_cases})
       add(all);
     return all;
   }();

@@ -24,6 +24,9 @@ void add_motion_cases(std::vector<Case> &cases);
 void add_scale_cases(std::vector<Case> &cases);
 void add_degenerate_cases(std::vector<Case> &cases);
 void add_misses_cases(std::vector<Case> &cases);
+void add_chain_cases(std::vector<Case> &cases);
+void add_machine_cases(std::vector<Case> &cases);
+void add_conflict_cases(std::vector<Case> &cases);
 
 /* --- scenes ----------------------------------------------------------------------------------------------- */
 

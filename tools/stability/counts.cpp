@@ -17,6 +17,7 @@ Counts counts_of(const Results &results, const std::string &solver)
     case Pass::with_setting: ++counts.with_setting; break;
     case Pass::with_solver: ++counts.with_solver; break;
     case Pass::failed: ++counts.failed; break;
+    case Pass::refused: ++counts.refused; break;
     }
   }
   return counts;
@@ -24,8 +25,9 @@ Counts counts_of(const Results &results, const std::string &solver)
 
 std::string text_of(const Counts &counts)
 {
-  return fmt::format("{} pass by default, {} only with a documented setting, {} with a documented solver, {} fail",
-                     counts.by_default, counts.with_setting, counts.with_solver, counts.failed);
+  return fmt::format("{} pass by default, {} only with a documented setting, {} with a documented solver, {} fail{}",
+                     counts.by_default, counts.with_setting, counts.with_solver, counts.failed,
+                     counts.refused > 0 ? fmt::format(", {} are refused", counts.refused) : "");
 }
 
 std::string verdict_of(const Outcome &outcome)
@@ -33,6 +35,7 @@ std::string verdict_of(const Outcome &outcome)
   switch (outcome.pass()) {
   case Pass::by_default: return "pass";
   case Pass::failed: return "FAIL";
+  case Pass::refused: return "refused";
   default: return "with " + outcome.settings;
   }
 }

@@ -32,7 +32,8 @@ Json counts_json(const Counts &counts)
   return {{"by_default", counts.by_default},
           {"with_setting", counts.with_setting},
           {"with_solver", counts.with_solver},
-          {"failed", counts.failed}};
+          {"failed", counts.failed},
+          {"refused", counts.refused}};
 }
 
 const char *word_of(Pass pass)
@@ -41,6 +42,7 @@ const char *word_of(Pass pass)
   case Pass::by_default: return "default";
   case Pass::with_setting: return "documented setting";
   case Pass::with_solver: return "documented solver";
+  case Pass::refused: return "refused";
   default: return "failed";
   }
 }
@@ -65,6 +67,8 @@ Json result_json(const Result &result)
           {"ms", outcome.milliseconds},
           {"ms_per_step", outcome.milliseconds_per_step},
           {"note", outcome.note},
+          {"fails_because", result.which.fails_because},
+          {"elsewhere", result.which.elsewhere},
           {"body_hash", hash_text(outcome.body_hash)},
           {"checks", checks}};
 }
@@ -72,6 +76,7 @@ Json result_json(const Result &result)
 PageCell verdict_cell(const Result &result)
 {
   const Outcome &outcome = result.outcome;
+  if (outcome.refused) return PageCell("refused");
   const std::string settings = outcome.by_default ? ", only with " + with_what(outcome) : "";
   PageCell cell(fmt::format("{} {}{}", outcome.passed ? "pass" : "FAIL",
                             with_unit(outcome.headline.figure, outcome.headline.unit), settings),
@@ -179,6 +184,8 @@ void add_case(Page &page, const CaseResults &results)
   page.subsection(first.outcome.name);
   page.paragraph(fmt::format("{}. Passes if: {}. Settings: {}; {} steps.", first.which.what, first.which.criterion,
                              first.outcome.settings, first.outcome.steps));
+  if (!first.which.fails_because.empty()) page.paragraph(fmt::format("Fails: {}.", first.which.fails_because));
+  if (!first.which.elsewhere.empty()) page.paragraph(fmt::format("Elsewhere: {}.", first.which.elsewhere));
   for (const Result *result : results)
     if (!result->outcome.note.empty())
       page.paragraph(fmt::format("{}: {}", result->outcome.solver, result->outcome.note));

@@ -29,7 +29,7 @@ using stability::Case;
 using stability::Length;
 
 struct StabilityOptions {
-  std::string only, except, solvers, on = "tbb", out, between, substeps;
+  std::string only, except, groups, except_groups, solvers, on = "tbb", out, between, substeps;
   size_t at_once = 0; /* 0: one for each processor */
   bool quick = false, list = false, inexact = false, bounds = false;
   MarkedTable table;
@@ -53,6 +53,19 @@ std::vector<std::string> case_names_in(const char *option, const std::string &te
   for (const std::string &name : names)
     if (std::find(known.begin(), known.end(), name) == known.end())
       throw InputError(fmt::format("{}: no case '{}'; the cases are {}", option, name, fmt::join(known, ", ")));
+  return names;
+}
+
+/* Throws InputError unless each name is that of a group. */
+std::vector<std::string> group_names_in(const char *option, const std::string &text)
+{
+  std::vector<std::string> known;
+  for (const Case &each : stability::all_cases())
+    if (known.empty() || known.back() != each.group) known.push_back(each.group);
+  const std::vector<std::string> names = split(text);
+  for (const std::string &name : names)
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      throw InputError(fmt::format("{}: no group '{}'; the groups are {}", option, name, fmt::join(known, ", ")));
   return names;
 }
 
@@ -85,14 +98,18 @@ const std::vector<Case> &cases_of(const StabilityOptions &options)
 std::vector<const Case *> chosen_cases(const StabilityOptions &options)
 {
   const std::vector<std::string> wanted = case_names_in("--only", options.only),
-                                 unwanted = case_names_in("--except", options.except);
-  const auto named = [](const std::vector<std::string> &names, const Case &each) {
-    return std::find(names.begin(), names.end(), each.name) != names.end();
+                                 unwanted = case_names_in("--except", options.except),
+                                 groups = group_names_in("--groups", options.groups),
+                                 other_groups = group_names_in("--except-groups", options.except_groups);
+  const auto named = [](const std::vector<std::string> &names, const std::string &name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
   };
   std::vector<const Case *> chosen;
   for (const Case &each : cases_of(options))
-    if ((options.only.empty() || named(wanted, each)) && !named(unwanted, each)) chosen.push_back(&each);
-  if (chosen.empty()) throw InputError("--except: no case is left");
+    if ((options.only.empty() || named(wanted, each.name)) && !named(unwanted, each.name) &&
+        (options.groups.empty() || named(groups, each.group)) && !named(other_groups, each.group))
+      chosen.push_back(&each);
+  if (chosen.empty()) throw InputError("--except, --groups and --except-groups: no case is left");
   return chosen;
 }
 
@@ -121,8 +138,11 @@ std::string verdict(const stability::Outcome &outcome)
 {
   const stability::CheckResult &headline = outcome.headline;
   return fmt::format("{:24} {:10} {} {:7.1f} s  {:.3g} {} ({}), bound {:.3g}{}", outcome.name, outcome.solver,
-                     outcome.passed ? "pass" : "FAIL", 1e-3 * outcome.milliseconds, headline.figure, headline.unit,
-                     headline.what, headline.bound.value, outcome.note.empty() ? "" : "; " + outcome.note);
+                     outcome.refused  ? "none"
+                     : outcome.passed ? "pass"
+                                      : "FAIL",
+                     1e-3 * outcome.milliseconds, headline.figure, headline.unit, headline.what, headline.bound.value,
+                     outcome.note.empty() ? "" : "; " + outcome.note);
 }
 
 /* A backend that does not exist, or solvers that it cannot run, are bad use, which must be found before the first
@@ -141,6 +161,12 @@ stability::Outcome run_with_progress(const Case &which, const std::string &solve
   return run_case(which, length, solver, placement, [&](uint64_t done, uint64_t) { progress.update(done); });
 }
 
+/* Names of groups may hold spaces. */
+std::string quoted(const std::string &text)
+{
+  return text.find(' ') == std::string::npos ? text : fmt::format("'{}'", text);
+}
+
 /* The command line that repeats the run; without the output files if the text is for a table in a page. */
 std::string command_text(const StabilityOptions &options, bool files = true)
 {
@@ -150,12 +176,15 @@ std::string command_text(const StabilityOptions &options, bool files = true)
   };
   add("--only", options.only);
   add("--except", options.except);
+  add("--groups", quoted(options.groups));
+  add("--except-groups", quoted(options.except_groups));
   add("--solvers", options.solvers);
   add("--substeps", options.substeps);
   add("--on", options.on == "tbb" ? "" : options.on);
   if (options.at_once > 0) text += fmt::format(" --cases-in-parallel {}", options.at_once);
   if (files) add("--out", options.out);
   if (files) add("--table-in", options.table.path);
+  if (files) add("--table", options.table.name);
   return text + (options.quick ? " --quick" : "") + (options.bounds ? " --bounds" : "");
 }
 
@@ -258,6 +287,7 @@ int compare_backends(const StabilityOptions &options)
   size_t unequal = 0;
   for (const Case *each : cases)
     for (const std::string &solver : solvers) {
+      if (refuses(solver, each->build(Length::brief))) continue;
       Json hashes = Json::object();
       bool equal = true;
       std::string first;
@@ -306,6 +336,9 @@ Command stability_command(CLI::App &parser)
   auto options = std::make_shared<StabilityOptions>();
   command->add_option("--only", options->only, "these cases alone")->type_name("CASE,...");
   command->add_option("--except", options->except, "all but these cases")->type_name("CASE,...");
+  command->add_option("--groups", options->groups, "the cases of these groups alone")->type_name("GROUP,...");
+  command->add_option("--except-groups", options->except_groups, "all but the cases of these groups")
+      ->type_name("GROUP,...");
   command->add_option("--solvers", options->solvers, "these solvers alone")->type_name("NAME,...");
   command
       ->add_option("--substeps", options->substeps,
@@ -329,6 +362,8 @@ Command stability_command(CLI::App &parser)
       ->add_option("--table-in", options->table.path,
                    "write the table of the run between the marks of this Markdown page")
       ->type_name("FILE");
+  command->add_option("--table", options->table.name, "the name of the table in this page, if it has several")
+      ->type_name("NAME");
   command->add_flag("--bounds", options->bounds,
                     "list figure, bound and ratio of every check; status 1 if a ratio above ten states no derivation");
   command->add_flag("--list", options->list, "name the cases")->excludes("--json")->excludes("--table-in");

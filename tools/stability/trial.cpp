@@ -104,11 +104,18 @@ void fail(Outcome &outcome, const Trial &trial, const std::string &why)
 
 Bound Bound::from_rounding(double value, std::string derivation) { return {value, std::move(derivation)}; }
 Bound Bound::promised(double value, std::string derivation) { return {value, std::move(derivation)}; }
+Bound Bound::from_theory(double value, std::string derivation)
+{
+  Bound bound{value, std::move(derivation)};
+  bound.source = "theory";
+  return bound;
+}
 
 bool CheckResult::loose() const { return bound.derivation.empty() && bound.value > 10 * figure; }
 
 Pass Outcome::pass() const
 {
+  if (refused) return Pass::refused;
   if (!passed) return Pass::failed;
   if (!by_default) return Pass::by_default;
   return documented_solver.empty() ? Pass::with_setting : Pass::with_solver;
@@ -223,10 +230,32 @@ Outcome run_as_documented(const Case &which, Length length, const Placement &pla
 
 } // namespace
 
+bool refuses(const std::string &solver, const Trial &trial)
+{
+  return !trial.scene.joints.empty() && solver != name_of(Solver::soft_step);
+}
+
+namespace {
+
+Outcome refused_outcome(const std::string &name, const Trial &trial, const std::string &solver)
+{
+  Outcome outcome;
+  outcome.name = name;
+  outcome.solver = solver;
+  outcome.settings = settings_text(settings_of(trial, solver));
+  fail(outcome, trial, "has no joints");
+  outcome.refused = true;
+  return outcome;
+}
+
+} // namespace
+
 Outcome run_case(const Case &which, Length length, const std::string &solver, const Placement &placement,
                  const std::function<void(uint64_t done, uint64_t of)> &after_step)
 {
-  Outcome first = run_trial(reported_name(which, length), which.build(length), solver, placement, after_step);
+  Trial trial = which.build(length);
+  if (refuses(solver, trial)) return refused_outcome(reported_name(which, length), trial, solver);
+  Outcome first = run_trial(reported_name(which, length), trial, solver, placement, after_step);
   if (first.passed || length == Length::brief) return first;
   return run_as_documented(which, length, placement, std::move(first), after_step);
 }
@@ -245,6 +274,8 @@ std::string settings_text(const Settings &settings)
   add("iterations", settings.iterations, defaults.iterations);
   add("contact_hertz", settings.contact_hertz, defaults.contact_hertz);
   add("contact_damping_ratio", settings.contact_damping_ratio, defaults.contact_damping_ratio);
+  add("joint_hertz", settings.joint_hertz, defaults.joint_hertz);
+  add("joint_damping_ratio", settings.joint_damping_ratio, defaults.joint_damping_ratio);
   add("push_speed", settings.push_speed, defaults.push_speed);
   add("slop", settings.slop, defaults.slop);
   add("slop_share", settings.slop_share, defaults.slop_share);

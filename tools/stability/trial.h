@@ -40,9 +40,11 @@ private:
 struct Bound {
   Bound(double value = 0) : value(value) {}
   static Bound from_rounding(double value, std::string derivation);
-  static Bound promised(double value, std::string derivation); /* for users, who notice nothing smaller */
+  static Bound promised(double value, std::string derivation);    /* for users, who notice nothing smaller */
+  static Bound from_theory(double value, std::string derivation); /* of the method, such as an order of its error */
   double value;
-  std::string derivation; /* empty if none is needed */
+  std::string derivation;          /* empty if none is needed */
+  std::string source = "rounding"; /* in tables, if there is a derivation */
 
 private:
   Bound(double value, std::string derivation) : value(value), derivation(std::move(derivation)) {}
@@ -83,7 +85,9 @@ struct Case {
   std::string what;      /* one sentence: the scene, and why it is hard */
   std::string criterion; /* one sentence: what passing means, and the source of the bound */
   std::function<Trial(Length)> build;
-  bool shorter = false; /* quick is shorter or smaller than full, and the name then says so */
+  bool shorter = false;           /* quick is shorter or smaller than full, and the name then says so */
+  std::string fails_because = ""; /* of a case that neither the defaults nor a setting passes: the cause */
+  std::string elsewhere = "";     /* what is publicly known of other engines, with its source; empty if nothing is */
 };
 
 /* The name in reports, so that a shortened case is not taken for the full one. */
@@ -103,12 +107,13 @@ struct CheckResult {
   bool loose() const;                                   /* more than ten, without a derivation */
 };
 
-/* How a case was passed; cases that need more than the defaults are counted separately. */
-enum class Pass { by_default, with_setting, with_solver, failed };
+/* How a case was passed; cases that need more than the defaults are counted separately. refused: the solver has no
+ * joints, and the case is about some. */
+enum class Pass { by_default, with_setting, with_solver, failed, refused };
 
 struct Outcome {
   std::string name, solver;
-  bool passed = false;
+  bool passed = false, refused = false;
   CheckResult headline; /* the first check that failed, else the first */
   std::vector<CheckResult> checks;
   std::string settings;                  /* settings_text() of the run */
@@ -132,7 +137,10 @@ Settings settings_of(const Trial &trial, const std::string &solver);
 Outcome run_trial(const std::string &name, const Trial &trial, const std::string &solver, const Placement &placement,
                   const std::function<void(uint64_t done, uint64_t of)> &after_step = {});
 
-/* Runs the case, and if it fails and documents settings that it needs, runs it again with those; returns the run that
+/* Whether the solver cannot run the case's scene, because it has joints. */
+bool refuses(const std::string &solver, const Trial &trial);
+
+/* Runs the case, unless the solver refuses it, and if it fails and documents settings that it needs, runs it again with those; returns the run that
  * passes, else the first. A solver that a case documents is tried only for the default solver; other solvers are judged
  * by themselves. */
 Outcome run_case(const Case &which, Length length, const std::string &solver, const Placement &placement,
