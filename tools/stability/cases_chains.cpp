@@ -32,7 +32,7 @@ Bound swing_of_energy(double length, const Settings &settings)
                             fmt::format("w h / 2 of a pendulum of {:.3g} m, substeps of {:.3g} s", length, substep));
 }
 
-/* --- ropes: links of half a metre and of 1 kg, a ball at the end, let go at 45 degrees from the vertical ---------- */
+/* --- ropes: links of half a metre and of 1 kg, a ball at the end, let go at 45 degrees from the vertical -------- */
 
 struct Rope {
   static constexpr int links = 20;
@@ -81,7 +81,7 @@ Case rope_case(float ratio, uint32_t substeps, const char *elsewhere)
           elsewhere};
 }
 
-/* --- chains that hang: each joint bears what is below it ---------------------------------------------------------- */
+/* --- chains that hang: each joint bears what is below it -------------------------------------------------------- */
 
 Scene hanging_chain(int links)
 {
@@ -113,7 +113,7 @@ Case hanging_case(int links, uint32_t substeps)
           true};
 }
 
-/* --- a bridge: planks on hinges in the shape in which they and a load in the middle balance ----------------------- */
+/* --- a bridge: planks on hinges in the shape in which they and a load in the middle balance --------------------- */
 
 class Bridge {
 public:
@@ -195,7 +195,7 @@ Trial bridge_trial(int planks, Length length)
   return trial;
 }
 
-/* --- springs in a row ------------------------------------------------------------------------------------------------ */
+/* --- springs in a row ------------------------------------------------------------------------------------------- */
 
 constexpr double soft_spring = 1e3, hard_spring = 1e9; /* N/m */
 
@@ -244,7 +244,7 @@ Trial springs_trial(Length length)
   return trial;
 }
 
-/* --- others ------------------------------------------------------------------------------------------------------------ */
+/* --- others ----------------------------------------------------------------------------------------------------- */
 
 Trial wrecking_trial(Length length)
 {

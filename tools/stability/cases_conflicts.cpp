@@ -54,8 +54,8 @@ Trial wedged_trial(Length length)
   return trial;
 }
 
-/* A square of bars whose four hinges have axes that are not parallel, one of its bars held by the world: it cannot move,
- * and its hinges hold two axes more than it has. */
+/* A square of bars, one of them held by the world, whose four hinges have axes that are not parallel: it cannot move.
+ * Its hinges hold two axes more than it has. */
 Trial locked_loop_trial(Length length)
 {
   Scene scene = empty_scene();

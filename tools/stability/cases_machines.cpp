@@ -47,7 +47,7 @@ Trial motor_limit_trial(float torque, double beyond, Length length)
   return trial;
 }
 
-/* --- gears: wheels about z, side by side -------------------------------------------------------------------------- */
+/* --- gears: wheels about z, side by side ------------------------------------------------------------------------ */
 
 uint32_t add_wheel(Scene &scene, double radius, double mass, const Vector &at)
 {
@@ -183,7 +183,7 @@ Trial pulley_trial(Length length)
   return trial;
 }
 
-/* --- what turns fast ------------------------------------------------------------------------------------------------- */
+/* --- what turns fast -------------------------------------------------------------------------------------------- */
 
 /* Two bodies, half a metre to each side of the origin, that turn about it at 100 rad/s. */
 Scene spinning_pair(const Shape &shape)
@@ -237,7 +237,7 @@ Trial rod_trial(Length length)
   return trial;
 }
 
-/* --- a vehicle: a chassis of 1,200 kg on four wheels with springs, which rolls at 100 m/s -------------------------- */
+/* --- a vehicle: a chassis of 1,200 kg on four wheels with springs, which rolls at 100 m/s ----------------------- */
 
 struct Vehicle {
   static constexpr double radius = 0.35, height = 0.55, speed = 100, mass = 1200, stiffness = 4e4;
@@ -284,7 +284,7 @@ Trial vehicle_trial(Length length)
   return trial;
 }
 
-/* --- limits and loops ------------------------------------------------------------------------------------------------ */
+/* --- limits and loops ------------------------------------------------------------------------------------------- */
 
 /* 1e4 N press the end of a bar against the limit of its cone. */
 Trial cone_trial_at_limit(Length length)

@@ -39,8 +39,8 @@ Figure mean_joint_opening(); /* m, their mean */
 Figure joint_angle();        /* rad */
 Figure coupling_slack();     /* rad or m, over the couplings */
 
-/* How much longer than `length` the way from a point of the world to the centre of a body is, relative to it; 0 if it is
- * shorter. */
+/* How much longer than `length` the way from a point of the world to the centre of a body is, relative to `length`.
+ * 0 if it is shorter. */
 Figure stretch_to(uint32_t body, const Vector &from, double length);
 /* The coordinate of a joint, 0 to 2 its directions and 3 to 5 its rotations, beyond a limit; 0 within. */
 Figure beyond_limit(uint32_t joint, size_t coordinate, double limit);

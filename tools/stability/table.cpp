@@ -66,11 +66,10 @@ std::string row_of(const Results &results, size_t first)
 
 std::string markdown_of(const Results &results, const std::string &command)
 {
-  std::string text =
-      fmt::format("`{}` on {}. Each check: figure of bound, and how many times the figure the bound is "
-                  "(\"rounding\": the bound is derived from "
-                  "that of floats;{} \"exact\": both are 0).\n\n",
-                  command, results.backend, has_theory(results) ? " \"theory\": from that of the method;" : "");
+  std::string text = fmt::format(
+      "`{}` on {}.\nEach check: figure of bound, and how many times the figure the bound is (\"rounding\": the "
+      "bound is derived from that of\nfloats;{} \"exact\": both are 0).\n\n",
+      command, results.backend, has_theory(results) ? " \"theory\": from that of the method;" : "");
   for (const std::string &solver : results.solvers)
     text += fmt::format("- {}: {} (of {})\n", solver, text_of(counts_of(results, solver)),
                         counts_of(results, solver).all());

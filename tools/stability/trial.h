@@ -140,9 +140,9 @@ Outcome run_trial(const std::string &name, const Trial &trial, const std::string
 /* Whether the solver cannot run the case's scene, because it has joints. */
 bool refuses(const std::string &solver, const Trial &trial);
 
-/* Runs the case, unless the solver refuses it, and if it fails and documents settings that it needs, runs it again with those; returns the run that
- * passes, else the first. A solver that a case documents is tried only for the default solver; other solvers are judged
- * by themselves. */
+/* Runs the case, unless the solver refuses it, and if it fails and documents settings that it needs, runs it again with
+ * those; returns the run that passes, else the first. A solver that a case documents is tried only for the default
+ * solver; other solvers are judged by themselves. */
 Outcome run_case(const Case &which, Length length, const std::string &solver, const Placement &placement,
                  const std::function<void(uint64_t done, uint64_t of)> &after_step = {});
 
