@@ -183,6 +183,26 @@ TEST_CASE("command: stability writes its contract, and says in its status whethe
   check_refused("stability --only flight", "--out");
   check_refused("stability --only flight --out /dev/null/folder", "/dev/null/folder");
   check_refused("stability --only flight --between serial", "two");
+  check_refused("stability --groups castles" + out, "the groups are mass ratio");
+  check_refused("stability --only flight --except-groups motion" + out, "no case is left");
+  const Json chosen = json_of("stability --only flight,gravity-0 --groups motion --solvers soft-step" + out);
+  REQUIRE(chosen["cases"].size() == 1);
+  CHECK(chosen["cases"][0]["name"] == "flight");
+}
+
+TEST_CASE("command: a table of stability goes between the marks of its name", "[command]")
+{
+  const Scratch scratch;
+  const std::string page = scratch.file("page.md"), run = "stability --only pulley-1000 --solvers soft-step --out " +
+                                                          scratch.file("report") + " --table-in " + page +
+                                                          " --table joints";
+  std::ofstream(page) << "<!-- table: begin -->\nother\n<!-- table: end -->\n";
+  check_refused(run, "<!-- table joints: begin -->");
+  std::ofstream(page, std::ios::app) << "<!-- table joints: begin -->\nold\n<!-- table joints: end -->\n";
+  CHECK(command(run).status == 0);
+  CHECK(contents(page).find("\nother\n") != std::string::npos);
+  CHECK(contents(page).find("\nold\n") == std::string::npos);
+  CHECK(contents(page).find("| pulley-1000 |") != std::string::npos);
 }
 
 TEST_CASE("command: a stability case has the same bits on OpenCL, also where it fails", "[command]")

@@ -1,7 +1,8 @@
 /* stability_test.cpp - the cases of `tandem stability` can pass, and every figure can fail.
  *
  * A check that cannot fail is a defect: each figure is given a wrong motion, planted by hand, and must exceed its
- * bound. All cases run with the default solver, and all but five, which take minutes, run at full length.
+ * bound. All cases run with the default solver, and all run at full length but those that have a shorter form, which
+ * take minutes together.
  */
 #ifdef TANDEM_COMMAND
 #include <limits>
