@@ -91,8 +91,8 @@ Scene newton_cradle(const SceneValues &v)
   scene.materials[0].static_friction = scene.materials[0].dynamic_friction = 0;
   add_ground(scene);
   const double thick = 0.02 * length, half_width = 0.4 * length;
-  Body &frame = add_body(scene, add_shape(scene, cradle_frame(half_row + length, half_width, height, thick)),
-                         {0, height, 0});
+  Body &frame =
+      add_body(scene, add_shape(scene, cradle_frame(half_row + length, half_width, height, thick)), {0, height, 0});
   frame.name = "frame";
   frame.type = BodyType::fixed;
   const Cradle cradle{length, radius, spacing, half_width, 1, add_shape(scene, sphere_shape(round_to_float(radius)))};
@@ -130,16 +130,18 @@ struct Pin {
   double x, y;
 };
 
-/* Adds a bar between two pins, in a layer of its own along z. Its axis x points from the first to the second. */
+/* Adds a bar between two pins, whose axis x points from the first to the second. Its shape is drawn in a layer of its
+ * own, but it moves in the plane z = 0, so that pins turn no bar out of the plane. */
 uint32_t add_bar(Scene &scene, const char *name, const Pin &from, const Pin &to, double z, double thick)
 {
   const double x = to.x - from.x, y = to.y - from.y, length = std::sqrt(x * x + y * y), cosine = x / length;
-  Body &bar = add_body(scene,
-                       add_shape(scene, box_shape(round_to_float(0.5 * length + thick), round_to_float(thick),
-                                                  round_to_float(0.5 * thick))),
-                       {0.5 * (from.x + to.x), 0.5 * (from.y + to.y), z},
-                       round_to_float(steel * 2 * thick * thick * length));
+  Body &bar =
+      add_body(scene,
+               add_shape(scene, box_shape(round_to_float(0.5 * length + thick), round_to_float(thick),
+                                          round_to_float(0.5 * thick))),
+               {0.5 * (from.x + to.x), 0.5 * (from.y + to.y), 0}, round_to_float(steel * 2 * thick * thick * length));
   bar.name = name;
+  bar.shape_position = {0, 0, round_to_float(z)};
   bar.filter_group = 2; /* bars pass through each other */
   bar.filter_mask = ~2u;
   bar.orientation = {0, 0, round_to_float(std::copysign(std::sqrt(0.5 * (1 - cosine)), y)),
@@ -150,7 +152,6 @@ uint32_t add_bar(Scene &scene, const char *name, const Pin &from, const Pin &to,
 /* The axis of a hinge is x of its frames; this turns it to z. */
 constexpr Quat hinge_to_z{0, -0.70710678f, 0, 0.70710678f};
 
-/* along: of each frame, on the axis x of its bar; in the middle between the layers of both. */
 Joint &pin(Scene &scene, uint32_t a, const Point &at_a, uint32_t b, const Point &at_b)
 {
   Joint joint;
@@ -163,11 +164,20 @@ Joint &pin(Scene &scene, uint32_t a, const Point &at_a, uint32_t b, const Point 
   return scene.joints.emplace_back(joint);
 }
 
+/* rate: rad/s, about a point that moves with the velocity (0, rise). */
+void set_in_motion(Body &bar, double rate, const Pin &about, double rise)
+{
+  bar.angular_velocity = {0, 0, round_to_float(rate)};
+  bar.linear_velocity = {round_to_float(-rate * (bar.position[1] - about.y)),
+                         round_to_float(rise + rate * (bar.position[0] - about.x)), 0};
+}
+
 Scene four_bar(const SceneValues &v)
 {
   const Linkage l{number(v, "crank"), number(v, "coupler"), number(v, "rocker"), number(v, "ground")};
+  const double speed = number(v, "speed");
   check_linkage(l);
-  const double thick = 0.1 * l.crank, layer = thick, base = 2 * l.crank, left = -0.5 * l.ground;
+  const double thick = 0.1 * l.crank, base = 2 * l.crank, left = -0.5 * l.ground;
   /* the crank points along x at first; C is above the line from its end to D */
   const double from_end = l.ground - l.crank,
                x = (l.coupler * l.coupler - l.rocker * l.rocker + from_end * from_end) / (2 * from_end);
@@ -176,13 +186,18 @@ Scene four_bar(const SceneValues &v)
   Scene scene;
   add_ground(scene);
   const uint32_t crank = add_bar(scene, "crank", a, b, 0, thick),
-                 coupler = add_bar(scene, "coupler", b, c, layer, thick),
+                 coupler = add_bar(scene, "coupler", b, c, thick, thick),
                  rocker = add_bar(scene, "rocker", d, c, 0, thick);
+  /* with the crank along the ground, coupler and rocker turn alike */
+  const double rise = speed * l.crank, rate = -rise / from_end;
+  set_in_motion(scene.bodies[crank], speed, a, 0);
+  set_in_motion(scene.bodies[coupler], rate, b, rise);
+  set_in_motion(scene.bodies[rocker], rate, d, 0);
   Joint &driven = pin(scene, no_body, {a.x, a.y, 0}, crank, {-0.5 * l.crank, 0, 0});
   driven.rotations[0].motor = true;
-  driven.rotations[0].target_velocity = round_to_float(number(v, "speed"));
-  pin(scene, crank, {0.5 * l.crank, 0, 0.5 * layer}, coupler, {-0.5 * l.coupler, 0, -0.5 * layer});
-  pin(scene, coupler, {0.5 * l.coupler, 0, -0.5 * layer}, rocker, {0.5 * l.rocker, 0, 0.5 * layer});
+  driven.rotations[0].target_velocity = round_to_float(speed);
+  pin(scene, crank, {0.5 * l.crank, 0, 0}, coupler, {-0.5 * l.coupler, 0, 0});
+  pin(scene, coupler, {0.5 * l.coupler, 0, 0}, rocker, {0.5 * l.rocker, 0, 0});
   pin(scene, no_body, {d.x, d.y, 0}, rocker, {-0.5 * l.rocker, 0, 0});
   return scene;
 }

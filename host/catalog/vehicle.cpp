@@ -58,7 +58,8 @@ struct Hills {
   double at(double x, double z) const
   {
     const double waves = 2 * M_PI / 12, inside = share(half_length - std::abs(x)) * share(half_width - std::abs(z));
-    const double wave = 0.5 + 0.5 * sine_cosine(waves * x).sine * sine_cosine(waves * z).cosine;
+    /* a crest under the middle of a car that starts at z = 0, so that it starts nearly level */
+    const double wave = 0.5 + 0.5 * sine_cosine(waves * (x - 0.5 * wheelbase)).cosine * sine_cosine(waves * z).cosine;
     return inside * (height * wave + depth) - depth;
   }
   Shape mesh() const
@@ -156,9 +157,8 @@ Joint suspension_of(const Mount &mount, uint32_t chassis, uint32_t wheel, const 
                          .damping = round_to_float(damping)};
   joint.rotations[0].lower = joint.rotations[0].upper = round_to_float(drive.angle_of(mount));
   if (mount.ahead == 0)
-    joint.rotations[1] = {.target_velocity = round_to_float(drive.rate_of(mount)),
-                          .motor = true,
-                          .max_force = round_to_float(torque)};
+    joint.rotations[1] = {
+        .target_velocity = round_to_float(drive.rate_of(mount)), .motor = true, .max_force = round_to_float(torque)};
   return joint;
 }
 
@@ -203,7 +203,8 @@ Scene vehicle(const SceneValues &v)
     mesh.type = BodyType::fixed;
   }
   const uint32_t chassis = add_shape(scene, chassis_shape()),
-                 wheel = add_shape(scene, cylinder_shape(round_to_float(wheel_radius), round_to_float(wheel_half_width)));
+                 wheel =
+                     add_shape(scene, cylinder_shape(round_to_float(wheel_radius), round_to_float(wheel_half_width)));
   for (int64_t i = 0; i < n; ++i) {
     const double z = (double(i) - 0.5 * double(n - 1)) * pitch;
     add_car(scene, chassis, wheel, {0, hills.height > 0 ? height_of_axles(hills, 0, z) : wheel_radius, z}, drive);

@@ -1,5 +1,6 @@
 /* Linkages against their closed forms: the crank-rocker of the built-in scene `four-bar` by Freudenstein's equation, and
  * Watt's linkage by the equation of its curve. What pins are open bounds what the links may be off. */
+#include <tandem/load_scene.h>
 #include <tandem/metrics.h>
 
 #include "tests/catch.h"
@@ -17,6 +18,14 @@ double openings_of(World &world)
   return sum;
 }
 
+/* Joints as stiff as these substeps allow; what they give way falls with the square of their number. */
+Settings settings_of_linkage(uint32_t substeps)
+{
+  Settings settings = settings_with(1.0 / 60, substeps);
+  settings.joint_hertz = 15 * float(substeps);
+  return settings;
+}
+
 /* a: crank, b: coupler, c: rocker, d: ground. */
 struct FourBar {
   double a, b, c, d;
@@ -32,9 +41,56 @@ struct FourBar {
   /* Of the angle between coupler and rocker; an opening e of the pins turns the rocker by at most e / (c sine). */
   double sine_of_transmission(double crank) const
   {
-    const double across = a * a + d * d - 2 * a * d * std::cos(crank),
-                 cosine = (b * b + c * c - across) / (2 * b * c);
+    const double across = a * a + d * d - 2 * a * d * std::cos(crank), cosine = (b * b + c * c - across) / (2 * b * c);
     return std::sqrt(1 - cosine * cosine);
+  }
+};
+
+/*    A----B              arms of 1 m on hinges in A and D, a bar of 0.5 m between their ends, whose middle M draws a
+ *         M              curve that is nearly straight
+ *         C----D
+ */
+struct WattLinkage {
+  double arm = 1, half_bar = 0.25;
+
+  Scene scene() const
+  {
+    Scene scene = empty_scene({0, 0, 0});
+    const auto add_bar = [&](double half, const Vector &at) -> Body & {
+      Body &bar = add_body(scene, BodyType::dynamic, box_shape(float(half), 0.03f, 0.03f), point_of(at));
+      bar.filter_mask = 0;
+      return bar;
+    };
+    add_bar(0.5 * arm, {-0.5 * arm, half_bar, 0});
+    add_bar(0.5 * arm, {0.5 * arm, -half_bar, 0});
+    add_bar(half_bar, {0, 0, 0}).orientation = turn_about(Vector::UnitZ(), pi / 2);
+    connect(scene, JointType::hinge, no_body, 0, {-arm, half_bar, 0}, Vector::UnitZ());
+    connect(scene, JointType::hinge, no_body, 1, {arm, -half_bar, 0}, Vector::UnitZ());
+    connect(scene, JointType::hinge, 0, 2, {0, half_bar, 0}, Vector::UnitZ());
+    connect(scene, JointType::hinge, 1, 2, {0, -half_bar, 0}, Vector::UnitZ());
+    return scene;
+  }
+  /* M, from the angle of the arm AB: C is where circles about B and D meet. */
+  Eigen::Vector2d middle_at(double angle) const
+  {
+    const Eigen::Vector2d b(-arm + arm * std::cos(angle), half_bar + arm * std::sin(angle)), d(arm, -half_bar);
+    const Eigen::Vector2d between = d - b, across(between.y(), -between.x());
+    const double squared = between.squaredNorm(), share = 0.5 * (1 + (4 * half_bar * half_bar - arm * arm) / squared),
+                 side = std::sqrt(4 * half_bar * half_bar / squared - share * share);
+    return 0.5 * (b + b + share * between + side * across);
+  }
+  /* The equation of the curve in polar coordinates about the middle between A and D, with A at the angle 0:
+   * r^2 = arm^2 - (a sin t +- sqrt(c^2 - a^2 cos^2 t))^2; a: half of AD, c: half of BC. */
+  double off_curve(const Eigen::Vector2d &m) const
+  {
+    const double a = std::hypot(arm, half_bar), t = std::atan2(m.y(), m.x()) - std::atan2(half_bar, -arm),
+                 root = std::sqrt(half_bar * half_bar - a * a * std::cos(t) * std::cos(t));
+    double least = 10;
+    for (const double sign : {-1.0, 1.0}) {
+      const double inner = a * std::sin(t) + sign * root;
+      least = std::min(least, std::abs(m.squaredNorm() - arm * arm + inner * inner));
+    }
+    return least;
   }
 };
 
@@ -43,12 +99,13 @@ struct FourBar {
 TEST_CASE("four-bar: the rocker is where Freudenstein's equation has it, over several turns", "[physics]")
 {
   const auto [linkage, speed] =
-      GENERATE(std::pair(FourBar{0.2, 0.7, 0.5, 0.6}, 3.0), std::pair(FourBar{0.2, 0.7, 0.5, 0.6}, -6.0),
+      GENERATE(std::pair(FourBar{0.2, 0.7, 0.5, 0.6}, 3.0), std::pair(FourBar{0.2, 0.7, 0.5, 0.6}, -5.0),
                std::pair(FourBar{0.3, 1, 0.8, 0.9}, 2.0));
+  const uint32_t substeps = GENERATE(4u, 16u);
   World world(load_scene("four-bar:crank=" + std::to_string(linkage.a) + ",coupler=" + std::to_string(linkage.b) +
                          ",rocker=" + std::to_string(linkage.c) + ",ground=" + std::to_string(linkage.d) +
                          ",speed=" + std::to_string(speed)),
-              {}, {});
+              settings_of_linkage(substeps), {});
   double turned = 0, last = 0, worst = 0, worst_bound = 0, least = 10, most = 0;
   for (int k = 0; k < 900; ++k) {
     world.step();
@@ -65,8 +122,8 @@ TEST_CASE("four-bar: the rocker is where Freudenstein's equation has it, over se
     last = crank;
   }
   CAPTURE(worst, worst_bound, turned, least, most);
-  CHECK(turned == Approx(speed * 15).epsilon(1e-3)); /* the motor holds its speed, turn after turn */
-  CHECK(worst < 2e-3);
+  CHECK(turned == Approx(speed * 15).epsilon(0.04 / substeps));  /* the motor holds its speed, to first order */
+  CHECK(worst < 0.04 * std::abs(speed) / (substeps * substeps)); /* the joints are of second order */
   /* the ends of the swing: crank and coupler in one line */
   const auto end = [&](double reach) {
     const auto &[a, b, c, d] = linkage;
@@ -76,59 +133,36 @@ TEST_CASE("four-bar: the rocker is where Freudenstein's equation has it, over se
   CHECK(most == Approx(end(linkage.b - linkage.a)).margin(0.01));
 }
 
-/*    A----B              arms of 1 m on hinges in A and D, a bar of 0.5 m between their ends, whose middle M draws a
- *         M              curve that is nearly straight
- *         C----D
- */
 TEST_CASE("watt's linkage: the middle of its bar draws the curve of Watt, which is nearly straight", "[physics]")
 {
-  const double arm = 1, half_bar = 0.25;
-  Scene scene = empty_scene({0, 0, 0});
-  const auto add_bar = [&](double half, const Vector &at) {
-    add_body(scene, BodyType::dynamic, box_shape(float(half), 0.03f, 0.03f), point_of(at)).filter_mask = 0;
-  };
-  add_bar(0.5 * arm, {-0.5 * arm, half_bar, 0});
-  add_bar(0.5 * arm, {0.5 * arm, -half_bar, 0});
-  add_bar(half_bar, {0, 0, 0});
-  scene.bodies[2].orientation = turn_about(Vector::UnitZ(), pi / 2);
-  connect(scene, JointType::hinge, no_body, 0, {-arm, half_bar, 0}, Vector::UnitZ());
-  connect(scene, JointType::hinge, no_body, 1, {arm, -half_bar, 0}, Vector::UnitZ());
-  connect(scene, JointType::hinge, 0, 2, {0, half_bar, 0}, Vector::UnitZ());
-  connect(scene, JointType::hinge, 1, 2, {0, -half_bar, 0}, Vector::UnitZ());
-  JointAxis motor{.target_velocity = 0.6f, .motor = true};
-  scene.joints[0].rotations[0] = motor;
-  World world(scene, {}, {});
-  /* In polar coordinates about the middle between A and D, with A at the angle 0:
-   * r^2 = arm^2 - (a sin t +- sqrt(c^2 - a^2 cos^2 t))^2 */
-  const double a = std::hypot(arm, half_bar), tilt = std::atan2(half_bar, -arm);
-  const auto off_curve = [&](double x, double y) {
-    const double r2 = x * x + y * y, t = std::atan2(y, x) - tilt, root = half_bar * half_bar - a * a * std::cos(t) * std::cos(t);
-    if (r2 < 0.01) return 0.0; /* the curve crosses itself in the middle, where t is not defined */
-    double nearest = 10;
-    for (const double sign : {-1.0, 1.0}) {
-      const double inner = a * std::sin(t) + sign * std::sqrt(std::max(root, 0.0));
-      nearest = std::min(nearest, std::abs(std::sqrt(std::max(arm * arm - inner * inner, 0.0)) - std::sqrt(r2)));
-    }
-    return nearest;
-  };
+  const WattLinkage watt;
+  double off_line = 0; /* how far the curve is from a straight line */
+  for (double angle = -0.4; angle < 0.401; angle += 0.01) {
+    const Eigen::Vector2d m = watt.middle_at(angle);
+    off_line = std::max(off_line, std::abs(m.x()));
+    if (m.norm() > 0.1) REQUIRE(watt.off_curve(m) < 1e-9); /* both closed forms are one */
+  }
+  REQUIRE(off_line < 0.01);
+  const uint32_t substeps = GENERATE(4u, 16u);
+  World world(watt.scene(), settings_of_linkage(substeps), {});
   double highest = 0, lowest = 0, widest = 0, worst = 0, open = 0;
-  for (int k = 0; k < 240; ++k) {
-    if (k == 40 || k == 120 || k == 200) {
-      motor.target_velocity = -motor.target_velocity;
-      world.set_joint_axis(world.id_of_joint(0), 3, motor);
-    }
+  for (int k = 0; k < 480; ++k) {
+    const double aim = 0.38 * std::sin(2 * pi * k / 240);
+    world.set_joint_axis(world.id_of_joint(0), 3, {.target_position = float(aim), .stiffness = 60, .damping = 12});
     world.step();
     const Point at = world.precise_bodies()[2].position;
-    const double opening = openings_of(world);
+    const double angle = world.read_joint(world.id_of_joint(0)).rotations[0],
+                 off = (Eigen::Vector2d(at[0], at[1]) - watt.middle_at(angle)).norm(), opening = openings_of(world);
+    REQUIRE(off < 2 * opening + 1e-6);
     highest = std::max(highest, at[1]);
     lowest = std::min(lowest, at[1]);
     widest = std::max(widest, std::abs(at[0]));
-    worst = std::max(worst, off_curve(at[0], at[1]));
+    worst = std::max(worst, off);
     open = std::max(open, opening);
   }
-  CAPTURE(highest, lowest, widest, worst, open);
-  CHECK(highest > 0.35);
-  CHECK(lowest < -0.35);
-  CHECK(widest < 5e-3);
-  CHECK(worst < 1e-3);
+  CAPTURE(substeps, off_line, highest, lowest, widest, worst, open);
+  CHECK(highest > 0.3);
+  CHECK(lowest < -0.3);
+  CHECK(widest < off_line + worst);
+  CHECK(worst < 5e-3 / (substeps * substeps));
 }
