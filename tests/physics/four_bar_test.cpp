@@ -1,5 +1,5 @@
-/* Linkages against their closed forms: the crank-rocker of the built-in scene `four-bar` by Freudenstein's equation, and
- * Watt's linkage by the equation of its curve. What pins are open bounds what the links may be off. */
+/* Linkages against their closed forms: the crank-rocker of the built-in scene `four-bar` by Freudenstein's equation,
+ * and Watt's linkage by the equation of its curve. What pins are open bounds what the links may be off. */
 #include <tandem/load_scene.h>
 #include <tandem/metrics.h>
 

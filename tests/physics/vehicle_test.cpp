@@ -76,8 +76,8 @@ double radius_through(const Eigen::Vector2d &a, const Eigen::Vector2d &b, const 
   return ab.norm() * ac.norm() * (c - b).norm() / (2 * std::abs(ab.x() * ac.y() - ab.y() * ac.x()));
 }
 
-/* The course of the middle of a rear axle over the hills without slip: its direction stays in the ground, where it turns
- * by the steering alone, so that without steering the course is a geodesic of the ground. */
+/* The course of the middle of a rear axle over the hills without slip: its direction stays in the ground, where it
+ * turns by the steering alone, so that without steering the course is a geodesic of the ground. */
 struct Course {
   double height;           /* m, from valley to crest */
   Vector at, ahead, above; /* on the ground; its direction, and the ground's normal */
