@@ -171,7 +171,7 @@ TEST_CASE("vehicle: a slalom over hills keeps to the course that does not slip, 
   course.lay_down();
   std::vector<int> off_ground(4);
   int longest = 0, on_mesh = 0;
-  double worst = 0, widest = 0, least_upright = 1;
+  double worst = 0, worst_height = 0, widest = 0, least_upright = 1;
   for (int k = 0; k < 280; ++k) {
     const double angle = sway * std::cos(2 * pi * k / 60 / period);
     car.steer(angle, speed);
@@ -180,6 +180,9 @@ TEST_CASE("vehicle: a slalom over hills keeps to the course that does not slip, 
     const Eigen::Vector2d at = car.rear();
     worst = std::max(worst, std::hypot(at.x() - course.at.x(), at.y() - course.at.z()));
     widest = std::max(widest, std::abs(at.y()));
+    const Vector chassis = car.position();
+    worst_height = std::max(
+        worst_height, std::abs(chassis.y() - car_wheel_radius - 0.25 - course.ground_at(chassis.x(), chassis.z())));
     least_upright = std::min(least_upright, car.upright());
     const std::set<uint32_t> touching = car.wheels_on_ground();
     for (uint32_t wheel = 0; wheel < 4; ++wheel) {
@@ -188,8 +191,9 @@ TEST_CASE("vehicle: a slalom over hills keeps to the course that does not slip, 
     }
     on_mesh += car.position().y() > car_wheel_radius + 0.25 + 0.1;
   }
-  CAPTURE(worst, widest, least_upright, longest, on_mesh);
+  CAPTURE(worst, worst_height, widest, least_upright, longest, on_mesh);
   CHECK(worst < 0.25);
+  CHECK(worst_height < 0.1); /* the wheels span a fifth of a wave */
   CHECK(widest > 0.5);
   CHECK(least_upright > 0.98);
   CHECK(longest < 20);
