@@ -14,10 +14,12 @@
 #include "host/catalog/closed_forms.h"
 #include "host/catalog/joints.h"
 #include "host/catalog/machines.h"
+#include "host/catalog/mechanisms.h"
 #include "host/catalog/meshes.h"
 #include "host/catalog/shapes.h"
 #include "host/catalog/structures.h"
 #include "host/catalog/talks.h"
+#include "host/catalog/vehicle.h"
 
 namespace tandem {
 
@@ -261,6 +263,8 @@ const std::vector<BuiltInScene> &catalog()
     for (BuiltInScene &scene : closed_form_scenes()) all.push_back(std::move(scene));
     for (BuiltInScene &scene : joint_scenes()) all.push_back(std::move(scene));
     for (BuiltInScene &scene : machine_scenes()) all.push_back(std::move(scene));
+    for (BuiltInScene &scene : mechanism_scenes()) all.push_back(std::move(scene));
+    all.push_back(vehicle_scene());
     return all;
   }();
   return rows;

@@ -77,6 +77,8 @@ TEST_CASE("parity on CPU: a bridge with boxes, and the built-in scenes of joints
   require_parity(bridge(), cpu_backends(), 40, with_events());
   for (const char *scene : {"joint-grid:columns=12,rows=12", "hinge-chain:n=20", "pendulums:n=20"})
     require_parity(scene, cpu_backends(), 15);
+  for (const char *scene : {"newton-cradle:n=4,length=0.5", "four-bar", "vehicle:n=2"})
+    require_parity(scene, cpu_backends(), 30);
 }
 
 TEST_CASE("parity on CPU: limits, springs, motors and friction of joints")

@@ -61,7 +61,8 @@ void require_joints_alone(const std::string &backend, uint32_t steps, const Sett
   CAPTURE(backend);
   BatchBesideWorlds(crowds(), backend, settings).step(steps);
   BatchBesideWorlds(worlds_of_axes(), backend, settings).step(steps);
-  BatchBesideWorlds(tests::varied_scenes("ragdolls:n=2,height=0", 3), backend, settings).step(steps);
+  for (const char *scene : {"ragdolls:n=2,height=0", "newton-cradle:n=4,length=0.5", "four-bar", "vehicle"})
+    BatchBesideWorlds(tests::varied_scenes(scene, 3), backend, settings).step(steps);
   BatchBesideWorlds(std::vector<Scene>(3, bridge()), backend, settings).step(steps);
 }
 

@@ -63,6 +63,10 @@ const std::vector<SleepingScene> &sleeping_scenes()
       {"ragdolls:n=2", true},
       {"motor-mill:wheels=3,stones=8", false},
       {"crane:rows=2", false},
+      {"newton-cradle:n=4", false},
+      {"four-bar", false},
+      {"vehicle", false},
+      {"vehicle:speed=0,hills=0", true},
   };
   return scenes;
 }

@@ -268,6 +268,11 @@ TEST_CASE("bad specifications are refused with what exists")
   CHECK_THAT(complaint("box-grid:nx=3,"), ContainsSubstring("'' is not key=value"));
   CHECK_THAT(complaint("box-grid:nx=3,nx=4"), ContainsSubstring("given twice"));
   CHECK_THAT(complaint("box-grid:nx=360,ny=10000,nz=360"), ContainsSubstring("1296000001 bodies; at most 64000000"));
+  CHECK_THAT(complaint("newton-cradle:n=3,raised=3"),
+             ContainsSubstring("raised=3 of n=3 balls; fewer than n are possible"));
+  CHECK_THAT(complaint("four-bar:crank=0.6"), ContainsSubstring("the crank cannot turn; it must be the shortest"));
+  CHECK_THAT(complaint("four-bar:coupler=2"), ContainsSubstring("crank=0.2, coupler=2, rocker=0.5, ground=0.6"));
+  CHECK_THAT(complaint("vehicle:steering=1"), ContainsSubstring("steering=1 is out of range; -0.5 to 0.5"));
   CHECK_NOTHROW(check_bodies("spheres", 10, 20 * sizeof(Body)));
   CHECK_THROWS_WITH(check_bodies("spheres", 11, 20 * sizeof(Body)), ContainsSubstring("at most 10 are possible"));
   CHECK_THAT(complaint("missing/scene.json"), ContainsSubstring("missing/scene.json: cannot read: No such file"));

@@ -47,7 +47,8 @@ TEST_CASE("command: a run reports its joints, and devices agree on them", "[comm
   CHECK(result["joint_error"]["max"] < 0.01);
   CHECK(result["joint_error"]["mean"] <= result["joint_error"]["max"]);
   CHECK(result["joint_error"]["max_angle"] == 0);
-  for (const char *scene : {"joint-grid:columns=5,rows=4", "hinge-chain:n=6", "pendulums:n=4"}) {
+  for (const char *scene : {"joint-grid:columns=5,rows=4", "hinge-chain:n=6", "pendulums:n=4",
+                            "newton-cradle:n=3,length=0.5", "four-bar", "vehicle"}) {
     const Result diff = command(std::string("diff ") + scene + " --steps 10 --between serial,tbb");
     CAPTURE(scene, diff.out, diff.error);
     CHECK(diff.status == 0);
