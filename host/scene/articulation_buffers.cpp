@@ -114,8 +114,9 @@ public:
     for (size_t k = 0; k < scene_.couplings.size(); ++k)
       for (const uint32_t joint : {scene_.couplings[k].joint_a, scene_.couplings[k].joint_b})
         if (joints_[joint])
-          refuse(where_, label("coupling", k, scene_.couplings[k].name),
-                 fmt::format("couples joint {}, which is one of an articulation; couplings are of other joints", joint));
+          refuse(
+              where_, label("coupling", k, scene_.couplings[k].name),
+              fmt::format("couples joint {}, which is one of an articulation; couplings are of other joints", joint));
     for (size_t k = 0; k < scene_.materials.size(); ++k)
       if (scene_.materials[k].rolling_friction > 0 || scene_.materials[k].spinning_friction > 0)
         refuse(where_, label("material", k, scene_.materials[k].name),
@@ -125,9 +126,8 @@ public:
 private:
   [[noreturn]] void fail(const std::string &what, const std::string &why) const
   {
-    const std::string name = articulation_->name.empty() ? "articulation"
-                                                         : fmt::format("articulation '{}'",
-                                                                       printable(articulation_->name));
+    const std::string name =
+        articulation_->name.empty() ? "articulation" : fmt::format("articulation '{}'", printable(articulation_->name));
     refuse(where_, name, what + " " + why);
   }
   void check_body(uint32_t index)
@@ -232,8 +232,8 @@ void check_articulations(const Settings &settings, const Scene &scene)
 {
   if (scene.articulations.empty()) return;
   const auto fail = [&](const std::string &why) {
-    throw InputError(fmt::format("{}: {}; the scene has {} articulations", scene.name, why,
-                                 scene.articulations.size()));
+    throw InputError(
+        fmt::format("{}: {}; the scene has {} articulations", scene.name, why, scene.articulations.size()));
   };
   if (settings.solver != Solver::soft_step)
     fail(fmt::format("the solver {} has no articulations, soft-step has them", name_of(settings.solver)));

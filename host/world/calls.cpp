@@ -232,8 +232,9 @@ void World::Implementation::add_impulses(std::span<const BodyId> ids, std::span<
   force_commands.prepare(2 * ids.size());
   for (size_t i = 0; i < ids.size(); ++i)
     if (is_link(called[i])) add_impulse_to_link(called[i], impulses[i]);
-    else add_push(commands, called[i], {impulses[i].impulse, impulses[i].angular_impulse, impulses[i].point},
-             COMMAND_ADD_IMPULSE, COMMAND_ADD_IMPULSE_AT);
+    else
+      add_push(commands, called[i], {impulses[i].impulse, impulses[i].angular_impulse, impulses[i].point},
+               COMMAND_ADD_IMPULSE, COMMAND_ADD_IMPULSE_AT);
 }
 
 /* What pushes a link goes through its tree in the step, so the impulse acts as a force throughout the step. */

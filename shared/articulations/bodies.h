@@ -21,8 +21,8 @@
 SHARED articulation articulation_at(read_links links, write_link_states states, uint number)
 {
   GLOBAL const uint *place = links.place + PLACE_WORDS * number;
-  articulation t = {links.code, links.row, states.state, states.root, states.work, states.next, place[0],
-                    place[1],   place[2],  place[3],     number,      place[3]};
+  articulation t = {links.code, links.row, states.state, states.root, states.work, states.next,
+                    place[0],   place[1],  place[2],     place[3],    number,      place[3]};
   return t;
 }
 
@@ -105,7 +105,8 @@ SHARED void read_root(read_links links, read_bodies bodies, const articulation *
 {
   tree_link root = tree_link_of(t, 0u);
   uint body = body_of_link(links, t, 0u);
-  double_float3 at = {xyz(load_float4(links.ground, 2u * t->number)), xyz(load_float4(links.ground, 2u * t->number + 1u))};
+  double_float3 at = {xyz(load_float4(links.ground, 2u * t->number)),
+                      xyz(load_float4(links.ground, 2u * t->number + 1u))};
   vec3 linear = zero3();
   if (root.is_free) {
     at = load_position(bodies.position, body);

@@ -17,7 +17,7 @@
 
 typedef struct {
   contact_side a, b;
-  contact shape; /* normal, friction and arms; without velocities */
+  contact shape;  /* normal, friction and arms; without velocities */
   uint is_within; /* both are links of one tree */
   arm_shift shift;
   vec4 offset, center_a, center_b;
@@ -263,8 +263,7 @@ SHARED void solve_link_contacts_item(GLOBAL const Parameters *parameters, read_c
   link_contact c = load_link_contact(parameters, contacts, patches, bodies, links, states, solver_velocity, i);
   if (pass == (uint)PASS_WARM_STARTING) warm_start_link_contact(parameters, &c, patches, planes, contact_impulses, i);
   else if (pass == (uint)PASS_BOUNCING) bounce_link_contact(&c, patches, planes, contact_impulses, i);
-  else
-    solve_link_contact(parameters, &c, patches, planes, contact_impulses, warm_start_impulse, pass, i);
+  else solve_link_contact(parameters, &c, patches, planes, contact_impulses, warm_start_impulse, pass, i);
   store_link_contact(&c, solver_velocity);
 }
 
@@ -272,9 +271,8 @@ SHARED void solve_link_contacts_item(GLOBAL const Parameters *parameters, read_c
 SHARED void solve_link_contacts_in_order_item(GLOBAL const Parameters *parameters, read_contacts contacts,
                                               read_patches patches, read_turning_bodies bodies, read_links links,
                                               GLOBAL const uint *counts, write_link_states states,
-                                              write_contact_impulses contact_impulses,
-                                              GLOBAL float4 *solver_velocity, GLOBAL float4 *warm_start_impulse,
-                                              uint pass, uint i)
+                                              write_contact_impulses contact_impulses, GLOBAL float4 *solver_velocity,
+                                              GLOBAL float4 *warm_start_impulse, uint pass, uint i)
 {
   (void)i;
   for (uint k = counts[LINK_COLOR_START + LINK_COLORS]; k < counts[COLOR_START + LINK_COLORS + 1u]; ++k)

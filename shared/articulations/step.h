@@ -78,7 +78,7 @@ SHARED void solve_articulations_item(GLOBAL const Parameters *parameters, read_l
 /* Whether a free tree falls as one body does whose contacts are out of reach (integrate/positions.h): all of its links
  * have the gravity of the world, and no contact bears or has pushed any. */
 SHARED uint tree_falls_freely(read_links links, GLOBAL const float4 *body_mass, GLOBAL const uint *body_falls,
-                         const articulation *t)
+                              const articulation *t)
 {
   uint falls = tree_link_of(t, 0u).is_free && !is_pushed(t) ? 1u : 0u;
   for (uint k = 0; k < t->links; ++k) {

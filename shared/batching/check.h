@@ -49,9 +49,9 @@ SHARED uint is_in_order(GLOBAL const Parameters *parameters, GLOBAL const uint *
   return is_link(body_link, a) | is_link(body_link, b);
 }
 
-SHARED void mark_batches_item(GLOBAL const Parameters *parameters, GLOBAL const uint *pair_a,
-                              GLOBAL const uint *pair_b, read_nodes nodes, GLOBAL const uint *sort_value, GLOBAL const uint *counts, GLOBAL uint *body_marks,
-                              GLOBAL uint *pair_marks, uint i)
+SHARED void mark_batches_item(GLOBAL const Parameters *parameters, GLOBAL const uint *pair_a, GLOBAL const uint *pair_b,
+                              read_nodes nodes, GLOBAL const uint *sort_value, GLOBAL const uint *counts,
+                              GLOBAL uint *body_marks, GLOBAL uint *pair_marks, uint i)
 {
   uint pair = sort_value[i], color = color_at(counts, i);
   ATOMIC_ADD(pair_marks + pair, 1u);
@@ -67,8 +67,8 @@ SHARED uint is_doubled(GLOBAL const uint *body_flags, GLOBAL const uint *body_ma
 }
 
 SHARED void check_batches_item(GLOBAL const Parameters *parameters, GLOBAL const uint *pair_a,
-                               GLOBAL const uint *pair_b, read_nodes nodes, GLOBAL const uint *sort_value, GLOBAL const uint *body_marks, GLOBAL uint *counts,
-                               uint i)
+                               GLOBAL const uint *pair_b, read_nodes nodes, GLOBAL const uint *sort_value,
+                               GLOBAL const uint *body_marks, GLOBAL uint *counts, uint i)
 {
   uint pair = sort_value[i], color = color_at(counts, i);
   if (is_in_order(parameters, nodes.link, color, pair_a[pair], pair_b[pair])) return;

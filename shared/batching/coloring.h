@@ -109,8 +109,8 @@ SHARED void assign_color(GLOBAL const uint *body_flags, GLOBAL uint *counts, GLO
 }
 
 SHARED void color_assign_item(GLOBAL const Parameters *parameters, read_world_pairs pairs, read_nodes nodes,
-                              GLOBAL uint *counts, GLOBAL uint *pair_color,
-                              GLOBAL uint *body_colors, GLOBAL uint *body_bid, uint round, uint i)
+                              GLOBAL uint *counts, GLOBAL uint *pair_color, GLOBAL uint *body_colors,
+                              GLOBAL uint *body_bid, uint round, uint i)
 {
   if (pair_color[i] != COLOR_NONE) return;
   assign_color(nodes.flags, counts, pair_color, body_colors, body_bid, node_of(parameters, nodes.link, pairs.a[i]),
@@ -121,7 +121,8 @@ SHARED void color_assign_item(GLOBAL const Parameters *parameters, read_world_pa
  * 42) fills batch after batch and takes each contact whose bodies are free; a contact comes into batch k if earlier
  * ones bar it from the batches before k, so "the lowest free colour, in order" gives the same batches in one pass. */
 SHARED void color_in_order_item(GLOBAL const Parameters *parameters, GLOBAL const uint *pair_a,
-                                GLOBAL const uint *pair_b, read_nodes nodes, GLOBAL uint *counts, GLOBAL uint *pair_color, GLOBAL uint *body_colors, uint i)
+                                GLOBAL const uint *pair_b, read_nodes nodes, GLOBAL uint *counts,
+                                GLOBAL uint *pair_color, GLOBAL uint *body_colors, uint i)
 {
   (void)i;
   for (uint pair = 0; pair < counts[COUNT_PAIRS]; ++pair) {

@@ -90,10 +90,9 @@ SHARED void occupy_color(GLOBAL uint *body_colors, uint body, uint color)
 }
 
 SHARED void match_pairs_item(GLOBAL const Parameters *parameters, read_pairs pairs,
-                             GLOBAL const float4 *manifold_normal, GLOBAL const uint *manifold_count,
-                             read_nodes nodes, read_cached_pairs cached_pairs, GLOBAL uint *counts,
-                             GLOBAL uint *pair_cached, GLOBAL uint *pair_color, GLOBAL uint *body_colors, uint keep,
-                             uint i)
+                             GLOBAL const float4 *manifold_normal, GLOBAL const uint *manifold_count, read_nodes nodes,
+                             read_cached_pairs cached_pairs, GLOBAL uint *counts, GLOBAL uint *pair_cached,
+                             GLOBAL uint *pair_color, GLOBAL uint *body_colors, uint keep, uint i)
 {
   uint a = pairs.a[i], b = pairs.b[i];
   uint cached = find_cached(cached_pairs.start, cached_pairs.b, a, b);

@@ -32,8 +32,7 @@ inline Scene tree_crowd(uint64_t seed = 1, uint32_t trees = 12, uint32_t chain =
     if (type == JointType::ball) joint.rotations = {axis, axis, axis};
     if (random.below(3) == 0 && (type == JointType::hinge || type == JointType::slider))
       axis.lower = -0.2f, axis.upper = 0.3f, axis.friction = 0.5f;
-    if (random.below(6) == 0 && type == JointType::hinge)
-      axis = {.target_velocity = 2, .motor = true, .max_force = 5};
+    if (random.below(6) == 0 && type == JointType::hinge) axis = {.target_velocity = 2, .motor = true, .max_force = 5};
     tree.joints.push_back(uint32_t(scene.joints.size() - 1));
   };
   for (uint32_t i = 0; i < trees; ++i) {

@@ -42,16 +42,15 @@ Scene hanging_chain(int links, const Vector &axis = Vector::UnitZ())
 
 } // namespace
 
-TEST_CASE("an articulated pendulum has the period of its closed form, and its joint does not open",
-          "[articulations]")
+TEST_CASE("an articulated pendulum has the period of its closed form, and its joint does not open", "[articulations]")
 {
   Scene scene = hanging_chain(1);
   Settings settings;
   settings.substeps = 8;
   World world(scene, settings, serial);
   /* I about the pivot = m (l^2 + (1 + 0.04) / 12), l = 0.5; released at a right angle to the vertical */
-  const double inertia = 0.25 + (1 + 0.04) / 12, period = 2 * pi * std::sqrt(inertia / (gravity * 0.5)) *
-                                                         lengthening_of_period(pi / 2);
+  const double inertia = 0.25 + (1 + 0.04) / 12,
+               period = 2 * pi * std::sqrt(inertia / (gravity * 0.5)) * lengthening_of_period(pi / 2);
   int crossings = 0;
   double last = 0, first_time = 0, last_time = 0;
   for (int k = 1; k <= 1200; ++k) {
@@ -116,26 +115,27 @@ TEST_CASE("an articulation of one link moves as the body alone", "[articulations
     for (int k = 0; k < 90; ++k) {
       alone.step();
       linked.step();
-      const Vector apart = vector_of(alone.precise_bodies()[1].position) - vector_of(linked.precise_bodies()[1].position);
+      const Vector apart =
+          vector_of(alone.precise_bodies()[1].position) - vector_of(linked.precise_bodies()[1].position);
       CAPTURE(friction, k);
       REQUIRE(apart.norm() < 2e-3);
     }
   }
 }
 
-TEST_CASE("two links on a fixed joint fall and slide as far as one body does by theory", "[articulations]")
+TEST_CASE("two links on a fixed joint slide as far as theory says of one body", "[articulations]")
 {
   Scene scene = empty_scene();
   add_ground(scene);
   for (const double x : {-0.5, 0.5})
-    add_body(scene, BodyType::dynamic, box_shape(0.5f, 0.2f, 0.3f), {x, 0.4, 0}).linear_velocity = {3, 0, 0};
-  connect(scene, JointType::fixed, 1, 2, {0, 0.4, 0});
+    add_body(scene, BodyType::dynamic, box_shape(0.5f, 0.2f, 0.3f), {x, 0.2, 0}).linear_velocity = {3, 0, 0};
+  connect(scene, JointType::fixed, 1, 2, {0, 0.2, 0});
   articulate(scene);
   World world(scene, {}, serial);
   run(world, 120);
   const auto bodies = world.precise_bodies();
-  /* 0.2 s of fall at 3 m/s; the impact of 2 m/s takes 0.5 of that from the slide, which then brakes at 5 m/s^2 */
-  CHECK(0.5 * (bodies[1].position[0] + bodies[2].position[0]) == Approx(0.6 + 0.4).margin(0.1));
+  const double way = 3 * 3 / (2 * 0.6 * gravity);
+  CHECK(0.5 * (bodies[1].position[0] + bodies[2].position[0]) == Approx(way).margin(3 * substep_of({})));
   CHECK(vector_of(bodies[1].linear_velocity).norm() < 1e-3);
   CHECK(bodies[1].position[1] == Approx(0.2).margin(1e-3));
 }
@@ -206,9 +206,8 @@ TEST_CASE("links of one tree do not pass through each other", "[articulations]")
   add_body(scene, BodyType::dynamic, box_shape(0.1f, 0.1f, 0.1f), {0.6, 0.3, 0});
   add_body(scene, BodyType::dynamic, box_shape(0.5f, 0.1f, 0.2f), {0, 0.6, 0});
   connect(scene, JointType::fixed, 0, 1, {0.6, 0.1, 0});
-  connect(scene, JointType::hinge, 1, 2, {0.6, 0.6, 0}, Vector::UnitZ()).rotations[0] = {.target_velocity = 2,
-                                                                                      .motor = true,
-                                                                                      .max_force = 20};
+  connect(scene, JointType::hinge, 1, 2, {0.6, 0.6, 0}, Vector::UnitZ()).rotations[0] = {
+      .target_velocity = 2, .motor = true, .max_force = 20};
   articulate(scene);
   World world(scene, {}, serial);
   double deepest = 0;

@@ -330,9 +330,8 @@ template <typename Record> void write_list(std::string &text, const char *key, c
 
 Scene parse_scene_json(const std::string &text, const std::string &where, OutsideFiles outside)
 {
-  static constexpr const char *keys[] = {"tandem_scene", "name",   "gravity", "shapes",
-                                         "materials",    "bodies", "joints",  "couplings",
-                                         "articulations"};
+  static constexpr const char *keys[] = {"tandem_scene", "name",   "gravity",   "shapes",       "materials",
+                                         "bodies",       "joints", "couplings", "articulations"};
   const JsonDocument document = parse_json(text, where);
   const JsonValue root(document.value(), where);
   check_format(root);
