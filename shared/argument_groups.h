@@ -88,6 +88,11 @@ typedef struct {
   BUFFER(solver_delta_pose, float4, delta)                                                                             \
   BUFFER(solver_orientation, float4, orientation)
 
+/* The nodes of the graph of contacts: batching/nodes.h. */
+#define GROUP_nodes(BUFFER)                                                                                            \
+  BUFFER(body_flags, uint, flags)                                                                                      \
+  BUFFER(body_link, uint, link)
+
 /* What the colouring of contacts notes at their bodies. */
 #define GROUP_colored_bodies(BUFFER)                                                                                   \
   BUFFER(body_colors, uint, colors)                                                                                    \
@@ -117,6 +122,9 @@ typedef struct {
 typedef struct {
   GROUP_blocks(READ_MEMBER)
 } read_blocks;
+typedef struct {
+  GROUP_nodes(READ_MEMBER)
+} read_nodes;
 typedef struct {
   GROUP_colored_bodies(WRITE_MEMBER)
 } write_colored_bodies;
@@ -519,5 +527,38 @@ typedef struct {
 typedef struct {
   GROUP_hits(WRITE_MEMBER)
 } write_hits;
+
+/* --- articulations ------------------------------------------------------------------------------------------- */
+/* Their tables: articulations/tree.h, articulations/bodies.h. */
+#define GROUP_links(BUFFER)                                                                                            \
+  BUFFER(link_code, uint, code)                                                                                        \
+  BUFFER(link_row, float4, row)                                                                                        \
+  BUFFER(link_body, uint, body)                                                                                        \
+  BUFFER(articulation_place, uint, place)                                                                              \
+  BUFFER(articulation_ground, float4, ground)                                                                          \
+  BUFFER(body_link, uint, of_body)
+
+/* What a step knows of them. */
+#define GROUP_link_states(BUFFER)                                                                                      \
+  BUFFER(link_state, float4, state)                                                                                    \
+  BUFFER(link_root, float4, root)                                                                                      \
+  BUFFER(link_work, float4, work)                                                                                      \
+  BUFFER(link_next, uint, next)
+
+/* Bodies where and as fast as a substep has taken them. */
+#define GROUP_moved_bodies(BUFFER)                                                                                     \
+  BUFFER(solver_velocity, float4, velocity)                                                                            \
+  BUFFER(solver_delta_pose, float4, delta)                                                                             \
+  BUFFER(solver_orientation, float4, orientation)
+
+typedef struct {
+  GROUP_links(READ_MEMBER)
+} read_links;
+typedef struct {
+  GROUP_link_states(WRITE_MEMBER)
+} write_link_states;
+typedef struct {
+  GROUP_moved_bodies(WRITE_MEMBER)
+} write_moved_bodies;
 
 #endif

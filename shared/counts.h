@@ -12,6 +12,9 @@
  * (solve/mass_split.h). Two words hold a bit for each colour. */
 #define COLOR_LIMIT 63u
 #define COLOR_OVERFLOW COLOR_LIMIT /* sort key of a constraint without a colour of its own */
+/* Contacts of links (articulations/contact.h) are parted from others within each colour. Those of the last colour are
+ * solved one after another, with those past it. */
+#define LINK_COLORS (COLOR_LIMIT - 1u)
 #define COLOR_NONE 254u            /* a touching pair without a colour yet */
 #define COLOR_INACTIVE 255u        /* a pair that does not touch, or one with a trigger */
 
@@ -62,6 +65,7 @@ enum {
   COUNT_COMMIT_JOINTS, /* these, as the other ranges of the commit */
   COUNT_BROKEN_JOINTS, /* by the loads of the step: joints/loads.h */
   COUNT_COUPLINGS,        /* set by the host */
+  COUNT_ARTICULATIONS,    /* set by the host */
   COUNT_COMMIT_COUPLINGS, /* these, as the other ranges of the commit */
   COUNT_GRID_X, /* cells of the uniform grid along each axis */
   COUNT_GRID_Y,
@@ -127,7 +131,9 @@ enum {
   JOINT_COLOR_START = WORLD_COLOR_START + (int)COLOR_LIMIT,
   /* The same of the couplings. */
   COUPLING_COLOR_START = JOINT_COLOR_START + COLOR_ENTRIES,
-  COUNT_TOTAL = COUPLING_COLOR_START + COLOR_ENTRIES
+  /* Of each colour, the first contact of a link: articulations/colors.h. */
+  LINK_COLOR_START = COUPLING_COLOR_START + COLOR_ENTRIES,
+  COUNT_TOTAL = LINK_COLOR_START + (int)COLOR_LIMIT
 };
 
 enum {

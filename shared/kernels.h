@@ -19,6 +19,9 @@
 #include "shared/batching/kernels.h"
 #include "shared/joints/kernels.h"
 #include "shared/solve/kernels.h"
+#ifndef TANDEM_LANES
+#include "shared/articulations/kernels.h"
+#endif
 #include "shared/integrate/kernels.h"
 #include "shared/forces/kernels.h"
 #include "shared/events/kernels.h"

@@ -214,6 +214,7 @@ std::vector<BuiltInScene> joint_scenes()
        wrecking_ball_bodies,
        wrecking_ball},
       ragdoll_scene(),
+      humanoid_scene(),
   };
 }
 

@@ -4,7 +4,8 @@
  *          chest             cone-twist joints: spine, chest, neck, shoulders, hips, ankles
  *    arm   spine   arm       hinges: elbows and knees, which bend one way only
  *         pelvis
- *        leg  leg            Each joint resists with a little friction, as muscles at rest do.
+ *        leg  leg            Each joint resists with a little friction, as muscles at rest do. Of humanoids they are
+ *                            balls and hinges with springs.
  */
 #include "host/catalog/ragdolls.h"
 
@@ -106,7 +107,8 @@ void add_part(Scene &scene, size_t part, const Point &at, const Heading &heading
   body.name = parts[part].name;
 }
 
-void connect_parts(Scene &scene, const Connection &connection, uint32_t first)
+/* The frames of the joint at which two parts meet. */
+Joint joint_of(const Connection &connection, uint32_t first)
 {
   const Part &end = parts[connection.b];
   const double x = connection.a == 0 || connection.a == 1 || connection.a == 2 ? end.x : parts[connection.a].x;
@@ -119,6 +121,12 @@ void connect_parts(Scene &scene, const Connection &connection, uint32_t first)
   joint.body_b = first + connection.b;
   joint.position_a = seen_from(connection.a);
   joint.position_b = seen_from(connection.b);
+  return joint;
+}
+
+void connect_limply(Scene &scene, const Connection &connection, uint32_t first)
+{
+  Joint joint = joint_of(connection, first);
   joint.rotations[0] = {.lower = connection.lower, .upper = connection.upper, .friction = friction};
   joint.type = connection.cone > 0 ? JointType::cone_twist : JointType::hinge;
   if (connection.cone > 0) {
@@ -128,10 +136,25 @@ void connect_parts(Scene &scene, const Connection &connection, uint32_t first)
   scene.joints.push_back(joint);
 }
 
-/* Rows of people on as many storeys as asked for, each turned about the vertical at random. */
-Scene ragdolls(const SceneValues &v)
+/* Each joint is a spring towards the pose in which the person begins. */
+void connect_with_drive(Scene &scene, const Connection &connection, uint32_t first, const JointAxis &drive)
 {
-  const int64_t n = whole(v, "n"), storeys = whole(v, "storeys"), side = [&] {
+  Joint joint = joint_of(connection, first);
+  joint.type = connection.cone > 0 ? JointType::ball : JointType::hinge;
+  joint.rotations.fill(drive);
+  if (joint.type == JointType::hinge) {
+    joint.rotations = {drive, {}, {}};
+    joint.rotations[0].lower = connection.lower;
+    joint.rotations[0].upper = connection.upper;
+  }
+  scene.joints.push_back(joint);
+}
+
+/* Rows of people on as many storeys as asked for, each turned about the vertical at random. connect: the joints of the
+ * person whose parts begin with a body. */
+template <class Connect> Scene people(const SceneValues &v, int64_t storeys, const Connect &connect)
+{
+  const int64_t n = whole(v, "n"), side = [&] {
     int64_t smallest = 1;
     while (smallest * smallest * storeys < n) ++smallest;
     return smallest;
@@ -152,9 +175,32 @@ Scene ragdolls(const SceneValues &v)
                    (double(within / side) - middle) * pitch};
     const auto first = static_cast<uint32_t>(scene.bodies.size());
     for (size_t part = 0; part < parts_of_person; ++part) add_part(scene, part, at, heading);
-    for (const Connection &connection : connections) connect_parts(scene, connection, first);
+    connect(scene, first);
   }
   return scene;
+}
+
+Scene ragdolls(const SceneValues &v)
+{
+  return people(v, whole(v, "storeys"), [](Scene &scene, uint32_t first) {
+    for (const Connection &connection : connections) connect_limply(scene, connection, first);
+  });
+}
+
+Scene humanoids(const SceneValues &v)
+{
+  JointAxis drive;
+  drive.stiffness = round_to_float(number(v, "stiffness"));
+  drive.damping = round_to_float(number(v, "damping"));
+  return people(v, 1, [&](Scene &scene, uint32_t first) {
+    Articulation person;
+    person.root = first;
+    for (const Connection &connection : connections) {
+      person.joints.push_back(static_cast<uint32_t>(scene.joints.size()));
+      connect_with_drive(scene, connection, first, drive);
+    }
+    scene.articulations.push_back(std::move(person));
+  });
 }
 
 uint64_t ragdoll_bodies(const SceneValues &v) { return 1 + parts_of_person * uint64_t(whole(v, "n")); }
@@ -172,6 +218,20 @@ BuiltInScene ragdoll_scene()
            {"seed", integer, 1, 0, 4294967295.0, "of the directions in which they look"}},
           ragdoll_bodies,
           ragdolls};
+}
+
+BuiltInScene humanoid_scene()
+{
+  return {"humanoid",
+          "people as articulations of 14 links, whose joints are springs and keep them upright",
+          {{"n", integer, 1, 1, 1000000, "people"},
+           {"pitch", real, 1.2, 0.8, 100, "from one to the next, m"},
+           {"height", real, 0.01, 0, 1000, "of the soles above the ground at the start, m"},
+           {"stiffness", real, 2000, 0, 1e9, "of each joint, N m/rad; 0: they fall over"},
+           {"damping", real, 50, 0, 1e9, "of each joint, N m s/rad"},
+           {"seed", integer, 1, 0, 4294967295.0, "of the directions in which they look"}},
+          ragdoll_bodies,
+          humanoids};
 }
 
 } // namespace tandem

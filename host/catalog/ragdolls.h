@@ -1,4 +1,4 @@
-/* ragdolls.h - people of 14 parts that fall over. */
+/* ragdolls.h - people of 14 parts: some fall over, some stand. */
 #pragma once
 
 #include "host/catalog/catalog.h"
@@ -6,5 +6,6 @@
 namespace tandem {
 
 BuiltInScene ragdoll_scene();
+BuiltInScene humanoid_scene();
 
 } // namespace tandem

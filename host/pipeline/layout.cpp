@@ -54,6 +54,8 @@ size_t items_of(Capacity capacity, const Sizes &sizes)
   case Capacity::JOINTS: return sizes.joints;
   case Capacity::JOINT_AXES: return size_t{sizes.joints} * sizes.joint_axes;
   case Capacity::COUPLINGS: return sizes.couplings;
+  case Capacity::ARTICULATIONS: return sizes.articulations;
+  case Capacity::LINKS: return sizes.links;
   case Capacity::HULL_CHUNKS: return sizes.hulls.chunk_float4s;
   case Capacity::HULL_LINKS: return sizes.hulls.links;
   case Capacity::BODIES: return sizes.bodies;

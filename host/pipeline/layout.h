@@ -20,6 +20,8 @@ struct Sizes {
   uint32_t joints = 0;
   uint32_t joint_axes = 0;   /* the most of one joint */
   uint32_t couplings = 0;
+  uint32_t articulations = 0;
+  uint32_t links = 0;        /* of all articulations */
   uint32_t joined_pairs = 0; /* entries of their table */
   uint32_t pairs = 0;      /* capacity */
   uint32_t cells = 0;      /* capacity */

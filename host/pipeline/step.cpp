@@ -39,6 +39,7 @@ public:
     if (plan().sleepers && plan().other_sleepers) list_sleepers(*this);
     run(Kernel::prepare_bodies);
     if (has(FEATURE_LOCKS)) run(Kernel::lock_bodies);
+    if (has(FEATURE_ARTICULATIONS)) run(Kernel::begin_articulations);
     if (has(FEATURE_JOINTS)) take_joint_colors();
     run_extensions(StepPoint::begin);
     find_pairs();
@@ -175,11 +176,12 @@ private:
     const BatcherRow &batcher = row_of(settings().batching);
     run(Kernel::match_pairs, {batcher.keeps_colors ? 1u : 0u});
     batcher.launch(*this);
-    const bool by_world = has(FEATURE_WORLDS) && plan().colors > COLOR_LIMIT;
-    if (by_world) find_color_keys_by_world();
+    const bool by_world = has(FEATURE_WORLDS) && plan().colors > COLOR_LIMIT, by_link = has(FEATURE_ARTICULATIONS);
+    if (by_link) run(Kernel::link_color_keys);
+    else if (by_world) find_color_keys_by_world();
     else run(Kernel::color_keys);
     sort(Buffer::sort_key, Buffer::sort_value, COUNT_PAIRS, plan().capacity_pairs, 0, 8);
-    run(by_world ? Kernel::world_color_starts : Kernel::color_starts);
+    run(by_link ? Kernel::link_color_starts : by_world ? Kernel::world_color_starts : Kernel::color_starts);
     if (settings().check) launch_check(*this);
   }
 

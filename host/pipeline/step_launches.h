@@ -40,6 +40,8 @@ public:
   void for_each_color_with_joints(Kernel joints, Kernel constraints, const Values &values = {});
   /* Launches a kernel of joints alone once for each colour, and another one for those beyond, if there are some. */
   void for_each_joint_color(Kernel joints, Kernel overflow);
+  /* Solves the contacts of links colour by colour, then the rows of their joints. */
+  void for_each_link_color(uint32_t pass);
   /* Launches a kernel over the overflow joints, if there are some: in a batch, an item starts at each of them. */
   void run_overflow_joints(Kernel kernel, const Values &values = {});
   /* Launches a kernel of couplings once for each of their colours. */

@@ -62,13 +62,7 @@ private:
     if (joint.type != JointType::fixed && joint.type != JointType::hinge && joint.type != JointType::slider &&
         joint.type != JointType::ball)
       fail_joint(index, "has another type than fixed, hinge, slider or ball; leave it out, and it closes a loop");
-    const auto &r = joint.rotations;
-    if (joint.type != JointType::ball) return;
-    JointAxis drive;
-    drive.stiffness = r[0].stiffness;
-    drive.damping = r[0].damping;
-    if (r[0] != drive || r[1] != drive || r[2] != drive)
-      fail_joint(index, "is a ball with more than one stiffness and one damping about all axes; leave it out");
+    if (joint.type == JointType::ball) check_ball_of_tree(joint, index, where_);
   }
 
   bool is_ground(uint32_t body) const { return body == no_body || scene_.bodies[body].type == BodyType::fixed; }
@@ -122,8 +116,7 @@ private:
     l.position_a = joint.position_a, l.position_b = joint.position_b;
     l.orientation_a = joint.orientation_a, l.orientation_b = joint.orientation_b;
     if (b_is_parent) turn_round(l);
-    if (joint.type == JointType::hinge || joint.type == JointType::ball) l.axis = joint.rotations[0];
-    if (joint.type == JointType::slider) l.axis = joint.directions[0];
+    l.axis = axis_of_tree(joint);
     if (!articulation_.armatures.empty()) l.armature = articulation_.armatures[n];
     used_[n] = true;
     add_link(l);
@@ -197,6 +190,27 @@ private:
 };
 
 } // namespace
+
+JointAxis axis_of_tree(const Joint &joint)
+{
+  switch (joint.type) {
+  case JointType::hinge:
+  case JointType::ball: return joint.rotations[0];
+  case JointType::slider: return joint.directions[0];
+  default: return {};
+  }
+}
+
+void check_ball_of_tree(const Joint &joint, size_t index, const std::string &where)
+{
+  const auto &r = joint.rotations;
+  JointAxis drive;
+  drive.stiffness = r[0].stiffness;
+  drive.damping = r[0].damping;
+  if (r[0] != drive || r[1] != drive || r[2] != drive)
+    refuse(where, label("joint", index, joint.name),
+           "is a ball with more than one stiffness and one damping about all axes; leave it out of the tree");
+}
 
 std::vector<OrderedLink> ordered_links_of(const Scene &scene, const Articulation &articulation,
                                           const std::string &where)

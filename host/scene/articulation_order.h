@@ -19,6 +19,12 @@ struct OrderedLink {
   float armature = 0;
 };
 
+/* The axis of a joint that a tree drives, limits and brakes. */
+JointAxis axis_of_tree(const Joint &joint);
+
+/* Throws InputError if a ball has more than a tree can have. */
+void check_ball_of_tree(const Joint &joint, size_t index, const std::string &where);
+
 /* Links of equal distance from the root stand in the order of Articulation::joints. */
 std::vector<OrderedLink> ordered_links_of(const Scene &scene, const Articulation &articulation,
                                           const std::string &where);

@@ -8,7 +8,7 @@
 #include <tandem/articulations.h>
 
 #include "host/scene/articulation_order.h"
-#include "host/scene/specialise.h"
+#include "host/scene/link_rows.h"
 
 #define TANDEM_REFERENCE
 namespace tandem::in_double {
@@ -45,17 +45,6 @@ template <class Vector> vec3 vec3_of(const Vector &v) { return make_vec3(v[0], v
 Triple triple_of(vec3 v) { return {v.x, v.y, v.z}; }
 vec3 sum_of(double_float3 p) { return add(p.high, p.low); }
 
-constexpr uint joint_code(const OrderedLink &l)
-{
-  if (l.is_free) return TREE_JOINT_FREE;
-  switch (l.type) {
-  case JointType::hinge: return TREE_JOINT_HINGE;
-  case JointType::slider: return TREE_JOINT_SLIDER;
-  case JointType::ball: return TREE_JOINT_BALL;
-  default: return TREE_JOINT_FIXED;
-  }
-}
-
 } // namespace
 
 struct ArticulationTree::Tables {
@@ -77,44 +66,17 @@ struct ArticulationTree::Tables {
   bool is_free() const { return ordered.front().is_free; }
 
 private:
-  /* Frame a of a root that is held stands in the world, or in a fixed body. */
-  void find_ground(const Scene &scene, const OrderedLink &l, float4 *orientation)
-  {
-    const Joint &joint = scene.joints[l.link.joint];
-    const uint32_t base = joint.body_a == l.link.body ? joint.body_b : joint.body_a;
-    ground = {l.position_a[0], l.position_a[1], l.position_a[2]};
-    if (base == no_body) return;
-    const Body &body = scene.bodies[base];
-    const quat turn = quat_of(body.orientation);
-    ground = triple_of(add(vec3_of(body.position), rotate(rotation_of(turn), vec3_of(l.position_a))));
-    const quat axes = quat_multiply(turn, quat_of(l.orientation_a));
-    *orientation = row(axes.x, axes.y, axes.z, axes.w);
-  }
-
-  void add_constants(const Scene &scene, const OrderedLink &l)
-  {
-    const Body &body = scene.bodies[l.link.body];
-    const bool is_held_root = l.link.parent == ArticulationLink::none && !l.is_free;
-    float4 axes = row_of(l.orientation_a), position = row_of(l.position_a, l.armature);
-    if (is_held_root) {
-      find_ground(scene, l, &axes);
-      position = row(0, 0, 0, l.armature);
-    }
-    const Vec3 inverse = inverse_inertia_of(scene, body);
-    const Triple moments{1.0 / inverse[0], 1.0 / inverse[1], 1.0 / inverse[2]};
-    constants.insert(constants.end(), {position, axes, row_of(l.position_b, body.mass), row_of(l.orientation_b),
-                                       row_of(moments, 0), row(0, 0, 0, 0), row(0, 0, 0, 0), row(0, 0, 0, 0)});
-  }
-
   void add_link(const Scene &scene, const OrderedLink &l)
   {
-    const uint parent = l.link.parent == ArticulationLink::none ? LINK_NO_PARENT : l.link.parent;
-    code.push_back(parent | joint_code(l) << LINK_JOINT_SHIFT);
+    const LinkRows rows = rows_of_link(scene, l);
+    code.push_back(rows.code);
     first.push_back(l.link.first_velocity);
     links.push_back(l.link);
     bodies.push_back(scene.bodies[l.link.body]);
     velocities += l.link.velocities;
-    add_constants(scene, l);
+    for (const auto &numbers : rows.numbers) constants.push_back(row(numbers[0], numbers[1], numbers[2], numbers[3]));
+    constants.resize(links.size() * LINK_ROWS, row(0, 0, 0, 0));
+    if (links.size() == 1) ground = rows.ground;
   }
 
   friend class ArticulationTree;

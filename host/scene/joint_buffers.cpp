@@ -64,16 +64,6 @@ float finite(float x) { return std::clamp(x, -1e30f, 1e30f); }
 /* Kernels divide by stiffness and damping; what comes of the least and the largest of floats is none. */
 float moderate(float x) { return x > 0 ? std::clamp(x, 1e-30f, 1e30f) : 0; }
 
-/* The row of an axis: shared/joints/axes.h. */
-std::array<float4, 3> row_of_axis(const JointAxis &axis)
-{
-  return {
-      float4{finite(axis.lower), finite(axis.upper), axis.target_position, axis.target_velocity},
-      float4{moderate(axis.stiffness), axis.motor ? float{DAMPING_OF_MOTOR} : moderate(axis.damping),
-             finite(axis.max_force), axis.friction},
-      float4{moderate(axis.limit_stiffness), moderate(axis.limit_damping), finite(axis.max_speed), axis.restitution}};
-}
-
 /* The planes of the axes of joints, by their places. */
 class AxisRows {
 public:
@@ -145,24 +135,45 @@ void stage_colors(StagedUploads &uploads, const JointGraph &graph, std::span<con
 }
 
 /* The table of broadphase/joined_pairs.h, by the indices of bodies. Pairs of which one sleeps are never looked for. */
-std::vector<uint32_t> joined_pair_table(const Scene &scene, std::span<const uint32_t> joints,
-                                        std::span<const uint32_t> index_of_body, uint32_t entries)
-{
-  std::vector<uint32_t> table(2 * size_t{entries}, INDEX_NONE);
-  for (const uint32_t number : joints) {
-    const Joint &joint = scene.joints[number];
-    if (!parts_bodies(joint)) continue;
-    const auto [b, a] = std::minmax(index_of_body[joint.body_a], index_of_body[joint.body_b]);
-    uint32_t k = joined_pair_hash(a, b) & (entries - 1);
-    const auto is_taken = [&] { return table[2 * size_t{k}] != INDEX_NONE; };
-    while (is_taken() && (table[2 * size_t{k}] != a || table[2 * size_t{k} + 1] != b)) k = (k + 1) & (entries - 1);
-    table[2 * size_t{k}] = a;
-    table[2 * size_t{k} + 1] = b;
+class JoinedPairTable {
+public:
+  JoinedPairTable(const Scene &scene, std::span<const uint32_t> index_of_body, uint32_t entries)
+      : scene_(scene), index_of_body_(index_of_body), entries_(entries), words_(2 * size_t{entries}, INDEX_NONE)
+  {}
+  void add(std::span<const uint32_t> joints)
+  {
+    for (const uint32_t number : joints)
+      if (parts_bodies(scene_.joints[number])) add(scene_.joints[number]);
   }
-  return table;
-}
+  std::vector<uint32_t> words() && { return std::move(words_); }
+
+private:
+  void add(const Joint &joint)
+  {
+    const auto [b, a] = std::minmax(index_of_body_[joint.body_a], index_of_body_[joint.body_b]);
+    uint32_t k = joined_pair_hash(a, b) & (entries_ - 1);
+    const auto is_taken = [&] { return words_[2 * size_t{k}] != INDEX_NONE; };
+    while (is_taken() && (words_[2 * size_t{k}] != a || words_[2 * size_t{k} + 1] != b)) k = (k + 1) & (entries_ - 1);
+    words_[2 * size_t{k}] = a;
+    words_[2 * size_t{k} + 1] = b;
+  }
+
+  const Scene &scene_;
+  std::span<const uint32_t> index_of_body_;
+  uint32_t entries_;
+  std::vector<uint32_t> words_;
+};
 
 } // namespace
+
+std::array<float4, 3> row_of_axis(const JointAxis &axis)
+{
+  return {
+      float4{finite(axis.lower), finite(axis.upper), axis.target_position, axis.target_velocity},
+      float4{moderate(axis.stiffness), axis.motor ? float{DAMPING_OF_MOTOR} : moderate(axis.damping),
+             finite(axis.max_force), axis.friction},
+      float4{moderate(axis.limit_stiffness), moderate(axis.limit_damping), finite(axis.max_speed), axis.restitution}};
+}
 
 bool can_be_pushed(const Scene &scene, uint32_t body)
 {
@@ -232,8 +243,9 @@ uint32_t joined_pair_entries(const Scene &scene)
 /* Half of them at least stay empty. A scene without a table has none at any time. */
 uint32_t joined_pair_entries(const Scene &scene, const JointGraph &graph, std::span<const uint32_t> awake)
 {
-  const auto pairs = static_cast<size_t>(
-      std::count_if(awake.begin(), awake.end(), [&](uint32_t joint) { return parts_bodies(scene.joints[joint]); }));
+  const auto parts = [&](uint32_t joint) { return parts_bodies(scene.joints[joint]); };
+  const auto pairs = static_cast<size_t>(std::count_if(awake.begin(), awake.end(), parts) +
+                                         std::count_if(graph.in_trees.begin(), graph.in_trees.end(), parts));
   return static_cast<uint32_t>(std::min<size_t>(std::bit_ceil(2 * std::max<size_t>(pairs, 1)), graph.joined_pairs));
 }
 
@@ -262,8 +274,11 @@ void stage_bodies_of_joints(StagedUploads &uploads, const Scene &scene, const Jo
   uploads.add(Buffer::joint_a, std::move(a));
   uploads.add(Buffer::joint_b, std::move(b));
   const uint32_t entries = joined_pair_entries(scene, graph, awake);
-  if (entries > 0)
-    uploads.add_elements(Buffer::body_filter, joined_pair_table(scene, awake, index_of_body, entries), first_pair);
+  if (entries == 0) return;
+  JoinedPairTable table(scene, index_of_body, entries);
+  table.add(awake);
+  table.add(graph.in_trees);
+  uploads.add_elements(Buffer::body_filter, std::move(table).words(), first_pair);
 }
 
 } // namespace tandem

@@ -2,6 +2,7 @@
  * colliding. */
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -16,6 +17,9 @@ namespace tandem {
 
 /* Whether joints push the body: not the world (no_body), nor what is fixed or kinematic. */
 bool can_be_pushed(const Scene &scene, uint32_t body);
+
+/* The numbers of an axis as kernels read them: shared/joints/axes.h. */
+std::array<float4, 3> row_of_axis(const JointAxis &axis);
 
 Features features_of(const Joint &joint);
 Features joint_features(const Scene &scene);

@@ -6,13 +6,15 @@
 #include <numeric>
 #include <tuple>
 
+#include "host/scene/articulation_buffers.h"
 #include "host/scene/joint_buffers.h"
 #include "shared/counts.h"
 
 namespace tandem {
 namespace {
 
-constexpr uint32_t behind_all = COLOR_OVERFLOW + 1; /* the colour of joints that are not enabled */
+/* The colour of joints that are not enabled, and of those of articulations. */
+constexpr uint32_t behind_all = COLOR_OVERFLOW + 1;
 
 /* The colours in use at the bodies, as one word of 64 bits each. */
 class ColorsAtBodies {
@@ -57,9 +59,13 @@ JointGraph joint_graph_of(const Scene &scene, uint32_t worlds)
   ColorsAtBodies at_bodies(scene);
   std::vector<uint32_t> colors;
   graph.starts.assign(COLOR_ENTRIES, 0);
-  for (const Joint &joint : scene.joints) {
-    const uint32_t color = colors.emplace_back(joint.enabled ? at_bodies.take(joint) : behind_all);
-    if (!joint.enabled) continue;
+  const std::vector<bool> articulated = articulated_joints(scene);
+  for (size_t k = 0; k < scene.joints.size(); ++k) {
+    const Joint &joint = scene.joints[k];
+    const bool holds = joint.enabled && !articulated[k];
+    const uint32_t color = colors.emplace_back(holds ? at_bodies.take(joint) : behind_all);
+    if (articulated[k]) graph.in_trees.push_back(static_cast<uint32_t>(k));
+    if (!holds) continue;
     ++graph.starts[color + 1];
     graph.colors = std::max(graph.colors, color + 1);
   }

@@ -23,6 +23,7 @@
 namespace tandem {
 
 struct JointGraph {
+  std::vector<uint32_t> in_trees;    /* joints of articulations, which have no colour */
   std::vector<uint32_t> order;       /* joints of the scene by colour; of one colour by type, then by number; those that
                                         are not enabled last */
   std::vector<uint32_t> starts;      /* in that order: the first of each colour, of the overflow joints, and the end */

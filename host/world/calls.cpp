@@ -226,10 +226,24 @@ void World::Implementation::add_impulses(std::span<const BodyId> ids, std::span<
 {
   const std::vector<uint32_t> called = slots_of("add_impulses", ids);
   check_entries("add_impulses", ids.size(), impulses);
+  const auto is_link = [&](uint32_t slot) { return links.has_body(slot); };
+  if (std::any_of(called.begin(), called.end(), is_link)) use_forces();
   commands.prepare(2 * ids.size());
+  force_commands.prepare(2 * ids.size());
   for (size_t i = 0; i < ids.size(); ++i)
-    add_push(commands, called[i], {impulses[i].impulse, impulses[i].angular_impulse, impulses[i].point},
-             COMMAND_ADD_IMPULSE, COMMAND_ADD_IMPULSE_AT);
+    if (is_link(called[i])) add_impulse_to_link(called[i], impulses[i]);
+    else
+      add_push(commands, called[i], {impulses[i].impulse, impulses[i].angular_impulse, impulses[i].point},
+               COMMAND_ADD_IMPULSE, COMMAND_ADD_IMPULSE_AT);
+}
+
+/* What pushes a link goes through its tree in the step, so the impulse acts as a force throughout the step. */
+void World::Implementation::add_impulse_to_link(uint32_t slot, const Impulse &impulse) noexcept
+{
+  const float rate = 1 / settings.step;
+  const auto scaled = [rate](const Vec3 &v) { return Vec3{v[0] * rate, v[1] * rate, v[2] * rate}; };
+  add_push(force_commands, slot, {scaled(impulse.impulse), scaled(impulse.angular_impulse), impulse.point},
+           COMMAND_ADD_FORCE, COMMAND_ADD_FORCE_AT);
 }
 
 void World::Implementation::add_forces(std::span<const BodyId> ids, std::span<const Force> forces)

@@ -56,11 +56,12 @@ World::Implementation::Implementation(Beginning beginning, const Placement &plac
                       : PlacedBackends(AutomaticPlacement::first_of(placement), features_run())),
       buffers(memory, backends), joint_graph(joint_graph_of(scene, std::max(special.worlds, 1u))),
       coupling_graph(coupling_graph_of(scene, std::max(special.worlds, 1u))), joint_order(scene, joint_graph),
-      joint_slots(scene.joints.size()), slots(std::move(beginning.slots)),
+      joint_slots(scene.joints.size()), links(links_of(scene)), slots(std::move(beginning.slots)),
       launcher(memory, [this](Kernel kernel) -> Backend & { return backends.of(kernel); }), parts(memory)
 {
   check_built(scene_features, scene, settings, scene.name);
   check_joints(settings, scene);
+  check_articulations(settings, scene);
   launcher.set_on_commit([this] { turn(); });
   plan.forces = beginning.forces || module_applies_forces();
   plan.sleeping = settings.sleeping;
@@ -113,6 +114,8 @@ Sizes World::Implementation::sizes() const
           .joints = static_cast<uint32_t>(scene.joints.size()),
           .joint_axes = joint_graph.axes,
           .couplings = static_cast<uint32_t>(scene.couplings.size()),
+          .articulations = static_cast<uint32_t>(scene.articulations.size()),
+          .links = links.count,
           .joined_pairs = joint_graph.joined_pairs,
           .pairs = plan.capacity_pairs,
           .cells = plan.capacity_cells,
@@ -287,6 +290,7 @@ void World::Implementation::stage_counts(StagedUploads &uploads) const
     uploads.add_count(static_cast<uint32_t>(entry), value);
   for (const auto &[entry, value] : coupling_entries_of(coupling_graph.starts))
     uploads.add_count(static_cast<uint32_t>(entry), value);
+  uploads.add_count(COUNT_ARTICULATIONS, static_cast<uint32_t>(scene.articulations.size()));
   uploads.add_count(CAPACITY_PAIRS, plan.capacity_pairs);
   uploads.add_count(CAPACITY_CELLS, plan.capacity_cells);
   uploads.add_count(CAPACITY_POINTS, points_of_pair(special.features));
@@ -307,6 +311,7 @@ void World::Implementation::guess_counts() noexcept
   known[COUNT_KEPT] = 0;
   for (const auto &[entry, value] : scene_entries) known[entry] = value;
   plan_joints();
+  known[COUNT_ARTICULATIONS] = static_cast<uint32_t>(scene.articulations.size());
   known[COUNT_COMMIT_BODIES] = special.awake;
   known[COUNT_COMMIT_BODIES_PLUS_ONE] = special.awake + 1;
   known[COUNT_CELLS_PLUS_ONE] = plan.capacity_cells + 1;

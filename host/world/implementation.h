@@ -23,6 +23,7 @@
 #include "host/runtime/launcher.h"
 #include "host/runtime/memory.h"
 #include "host/runtime/recorder.h"
+#include "host/scene/articulation_buffers.h"
 #include "host/scene/body_buffers.h"
 #include "host/scene/body_records.h"
 #include "host/scene/buffer_measures.h"
@@ -158,6 +159,7 @@ struct World::Implementation {
   void forget_contacts();
   void quarantine_from(uint32_t code, uint32_t status);
   void quarantine(uint32_t index, uint32_t stage);
+  void quarantine_tree(uint32_t body, uint32_t stage);
 
   /* --- a batch of worlds (host/world/worlds.h): batch.cpp --------------------------------------------------------- */
   bool is_batch() const { return special.worlds > 0; }
@@ -218,11 +220,13 @@ struct World::Implementation {
   void move_to(std::span<const BodyId> ids, std::span<const Pose> poses);
   void add_impulses(std::span<const BodyId> ids, std::span<const Impulse> impulses);
   void add_forces(std::span<const BodyId> ids, std::span<const Force> forces);
+  void add_impulse_to_link(uint32_t slot, const Impulse &impulse) noexcept;
   void use_forces();
 
   /* --- properties that change: properties.cpp -------------------------------------------------------------------- */
   void set_properties(std::span<const BodyId> ids, std::span<const BodyProperties> properties);
   void refuse_unbuilt(std::span<const uint32_t> slots, std::span<const Body> changed_bodies);
+  void refuse_for_links(std::span<const uint32_t> changed, std::span<const Body> changed_bodies);
   void refuse_idle_joints(std::span<const uint32_t> joints, std::span<const uint32_t> changed,
                           std::span<const Body> changed_bodies);
   void write_properties(std::span<const uint32_t> slots, bool weighs_anew);
@@ -232,6 +236,7 @@ struct World::Implementation {
   std::vector<BodyRows> joint_rows(const std::vector<bool> &touched) const;
   void launch_moves_of_joints(Launcher &to, const BodyRows &rows, uint32_t most) const;
   void move_joint_rows(const JointOrder::Moves &moves, bool carried);
+  void tell_articulations();
   void tell_joints();
   void plan_joints() noexcept;
   bool is_joint_asleep(uint32_t joint) const;
@@ -243,6 +248,9 @@ struct World::Implementation {
 
   /* --- joints: joints.cpp ---------------------------------------------------------------------------------------- */
   void stage_joint_tables(StagedUploads &uploads, std::span<const uint32_t> order) const;
+  void refuse_articulated(const char *call, const char *why, std::span<const uint32_t> joints) const;
+  void refuse_linked(const char *call, const char *why, std::span<const uint32_t> given) const;
+  bool is_in_tree(uint32_t joint) const { return joint < links.of_joint.size() && links.of_joint[joint] != no_link; }
   void refuse_joined(const char *call, const char *why, std::span<const uint32_t> given) const;
 
   /* --- joints that come, change and go: joint_calls.cpp ----------------------------------------------------------- */
@@ -362,6 +370,7 @@ struct World::Implementation {
   CouplingGraph coupling_graph;
   JointOrder joint_order;
   JointSlots joint_slots;
+  JointedLinks links; /* of articulations, which stay as they are */
   std::vector<JointBreak> joint_breaks;           /* of the last step */
   uint64_t joints_number = 0, joints_numbers = 0; /* the number of the present joints, and of those so far */
   std::shared_ptr<const KeptJoints> kept_joints;  /* the present ones, as states that are kept share them; or null */

@@ -8,6 +8,7 @@
  *                                   -> all tables, new kernels   (lay_out_anew, host/world/bodies.cpp)
  */
 #include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
 
@@ -16,6 +17,7 @@
 #include "host/pipeline/broadphases/broadphase.h"
 #include "host/pipeline/layout.h"
 #include "host/pipeline/scene_counts.h"
+#include "host/scene/articulation_buffers.h"
 #include "host/scene/built.h"
 #include "host/scene/joint_buffers.h"
 #include "host/scene/joint_rows.h"
@@ -75,6 +77,22 @@ void World::Implementation::refuse_coupled(const char *call, const char *why, st
     for (const uint32_t joint : {scene.couplings[k].joint_a, scene.couplings[k].joint_b})
       if (std::find(joints.begin(), joints.end(), joint) != joints.end())
         throw InputError(fmt::format("{}: joint {}: {}, because coupling {} needs it", call, joint, why, k));
+}
+
+/* An articulation stays as it is. */
+void World::Implementation::refuse_articulated(const char *call, const char *why,
+                                               std::span<const uint32_t> joints) const
+{
+  for (const uint32_t joint : joints)
+    if (is_in_tree(joint))
+      throw InputError(fmt::format("{}: joint {}: {}, because an articulation has it", call, joint, why));
+}
+
+void World::Implementation::refuse_linked(const char *call, const char *why, std::span<const uint32_t> given) const
+{
+  for (const uint32_t body : given)
+    if (links.has_body(body))
+      throw InputError(fmt::format("{}: body {}: {}, because it is a link of an articulation", call, body, why));
 }
 
 /* The awake bodies of joints begin their rest anew; those asleep wake. */
@@ -166,6 +184,7 @@ std::vector<JointId> World::Implementation::create_joints(std::span<const Joint>
   for (size_t i = 0; i < given.size(); ++i) {
     validate(scene, given[i], i, "create_joints");
     check_joined_bodies("create_joints", i, given[i]);
+    refuse_linked("create_joints", "no further joint can hold it", std::array{given[i].body_a, given[i].body_b});
   }
   if (given.empty()) return {};
   JointSlots new_slots = joint_slots;
@@ -200,6 +219,7 @@ void World::Implementation::destroy_joints(std::span<const JointId> ids)
   const auto twice = std::adjacent_find(destroyed.begin(), destroyed.end());
   if (twice != destroyed.end()) throw InputError(fmt::format("destroy_joints: joint {} is given twice", *twice));
   refuse_coupled("destroy_joints", "it cannot be destroyed", destroyed);
+  refuse_articulated("destroy_joints", "it cannot be destroyed", destroyed);
   destroy_joints_in(destroyed);
 }
 
@@ -234,10 +254,12 @@ void World::Implementation::set_joints(std::span<const JointId> ids, std::span<c
     throw InputError(fmt::format("set_joints: {} handles and {} joints; one joint for each handle is needed",
                                  ids.size(), given.size()));
   const std::vector<uint32_t> changed = slots_of_joints("set_joints", ids);
+  refuse_articulated("set_joints", "set_joint_axes alone can change it", changed);
   std::vector<Joint> joints = scene.joints;
   for (size_t i = 0; i < given.size(); ++i) {
     validate(scene, given[i], i, "set_joints");
     check_joined_bodies("set_joints", i, given[i]);
+    refuse_linked("set_joints", "no further joint can hold it", std::array{given[i].body_a, given[i].body_b});
     const Joint &before = std::exchange(joints[changed[i]], given[i]);
     if (before.type != given[i].type || before.body_a != given[i].body_a || before.body_b != given[i].body_b ||
         !(held_by(before) == held_by(given[i])))
@@ -292,6 +314,8 @@ void World::Implementation::set_joint_axes(std::span<const JointId> ids, std::sp
     validate(scene, joints[at->second], changed[i], "set_joint_axes");
   }
   if (ids.empty()) return;
+  for (const auto &[slot, k] : of_slot)
+    if (is_in_tree(slot)) check_joint_of_tree(joints[k], slot, "set_joint_axes");
   std::vector<uint32_t> distinct;
   std::vector<Joint> in_order;
   for (const auto &[slot, k] : of_slot) distinct.push_back(slot), in_order.push_back(joints[k]);
@@ -334,6 +358,8 @@ void World::Implementation::write_joint_axes(std::span<const uint32_t> changed, 
 void World::Implementation::stage_changed_axes(StagedUploads &uploads, std::span<const uint32_t> changed) const
 {
   constexpr size_t few = 16;
+  const bool in_trees = std::any_of(changed.begin(), changed.end(), [&](uint32_t joint) { return is_in_tree(joint); });
+  if (in_trees) stage_link_axes(uploads, scene, changed.size() > few ? std::span<const uint32_t>{} : changed, links);
   if (changed.size() > few) return stage_axes(uploads, scene, joint_order.joints(), joint_graph.axes);
   for (const uint32_t joint : changed)
     stage_axes_at(uploads, scene.joints[joint], joint_order.place_of(joint), scene.joints.size());

@@ -98,6 +98,7 @@ std::vector<JointReading> World::Implementation::read_joints(std::span<const Joi
   for (const uint32_t joint : joints) {
     readings.emplace_back();
     if (scene.joints[joint].enabled) readings.back() = Reader(scene.joints[joint], states).read(impulses, joint, rate);
+    if (is_in_tree(joint)) readings.back().force.fill(std::nan("")), readings.back().torque.fill(std::nan(""));
   }
   return readings;
 }

@@ -13,6 +13,7 @@
 #include <tandem/error.h>
 
 #include "host/pipeline/broadphases/broadphase.h"
+#include "host/scene/articulation_buffers.h"
 #include "host/scene/built.h"
 #include "host/scene/joint_buffers.h"
 #include "host/world/implementation.h"
@@ -138,6 +139,7 @@ void World::Implementation::set_properties(std::span<const BodyId> ids, std::spa
   const std::vector<uint32_t> retyped = joints_of_bodies(retyped_by(scene, changed));
   refuse_coupled("set_properties", "the type of its bodies cannot change", retyped);
   refuse_idle_joints(retyped, changed.slots, changed.bodies);
+  refuse_for_links(changed.slots, changed.bodies);
   if (ids.empty()) return;
   refuse_unbuilt(changed.slots, changed.bodies); /* before anything wakes */
   settle();                                      /* what was called before comes before */
@@ -162,6 +164,20 @@ void World::Implementation::set_properties(std::span<const BodyId> ids, std::spa
   for (const uint32_t slot : changed.slots)
     if (slots.status()[slot] != BodyStatus::quarantined)
       commands.add(slot, COMMAND_SET_MASS, mass_command_of(scene.bodies[slot]));
+}
+
+/* Tables of articulations have masses and moments, and a step has no damping of links, nor highest speeds. */
+void World::Implementation::refuse_for_links(std::span<const uint32_t> changed, std::span<const Body> changed_bodies)
+{
+  if (scene.articulations.empty()) return;
+  for (size_t k = 0; k < changed.size(); ++k) {
+    const Body &now = changed_bodies[k], &before = scene.bodies[changed[k]];
+    if (now.type != before.type || now.mass != before.mass || now.inertia != before.inertia ||
+        now.linear_locks != before.linear_locks || now.angular_locks != before.angular_locks)
+      refuse_linked("set_properties", "its type, mass, moments and locks cannot change", changed.subspan(k, 1));
+  }
+  const PlacedBodies tried(scene, changed, changed_bodies);
+  check_articulations(scene, "set_properties");
 }
 
 /* A joint needs a dynamic body. */

@@ -79,8 +79,14 @@ void SceneTables::add(const Scene &scene, Scene &all)
     coupling.joint_b = number_of[coupling.joint_b];
     all.couplings.push_back(std::move(coupling));
   }
+  for (Articulation articulation : scene.articulations) {
+    for (uint32_t &joint : articulation.joints) joint = number_of[joint];
+    if (articulation.root != no_body) articulation.root += first_body;
+    all.articulations.push_back(std::move(articulation));
+  }
   first_joint_.push_back(all.joints.size());
   first_coupling_.push_back(all.couplings.size());
+  first_articulation_.push_back(all.articulations.size());
   for (Body body : scene.bodies) {
     body.shape += tables_.back().first_shape;
     body.material += tables_.back().first_material;
@@ -102,6 +108,12 @@ Scene SceneTables::scene_of(uint32_t world, const Scene &all, uint32_t bodies, c
     scene.joints.push_back(renumbered(all.joints[k], world * bodies, 0));
   for (size_t k = first_coupling_[world]; k < first_coupling_[world + 1]; ++k)
     scene.couplings.push_back(renumbered(all.couplings[k], first_joint_[world], 0));
+  for (size_t k = first_articulation_[world]; k < first_articulation_[world + 1]; ++k) {
+    Articulation articulation = all.articulations[k];
+    for (uint32_t &joint : articulation.joints) joint -= static_cast<uint32_t>(first_joint_[world]);
+    if (articulation.root != no_body) articulation.root -= world * bodies;
+    scene.articulations.push_back(std::move(articulation));
+  }
   for (Body &body : scene.bodies) {
     body.shape -= own.first_shape;
     body.material -= own.first_material;

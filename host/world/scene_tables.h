@@ -1,4 +1,4 @@
-/* scene_tables.h - the shapes, materials, joints and couplings of the scenes of a batch, one scene after the other in
+/* scene_tables.h - the shapes, materials, joints, couplings and articulations of the scenes of a batch, one scene after the other in
  * the scene of them all. Scenes with equal shapes and materials, such as copies of one, share these. */
 #pragma once
 
@@ -36,7 +36,8 @@ private:
 
   std::vector<Table> tables_;
   std::vector<uint32_t> table_of_;                               /* by world */
-  std::vector<size_t> first_joint_ = {0}, first_coupling_ = {0}; /* of each world, and the end */
+  /* Of each world, and the end. */
+  std::vector<size_t> first_joint_ = {0}, first_coupling_ = {0}, first_articulation_ = {0};
 };
 
 } // namespace tandem

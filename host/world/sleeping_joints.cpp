@@ -6,6 +6,7 @@
 
 #include "host/pipeline/layout.h"
 #include "host/pipeline/scene_counts.h"
+#include "host/scene/articulation_buffers.h"
 #include "host/scene/joint_buffers.h"
 #include "host/world/implementation.h"
 
@@ -48,13 +49,22 @@ void World::Implementation::move_joint_rows(const JointOrder::Moves &moves, bool
     if (carried || !is_carried(row_of(rows.from).lifetime)) launch_moves_of_joints(launcher, rows, moved);
 }
 
+/* Tells kernels which articulations have all of their links. */
+void World::Implementation::tell_articulations()
+{
+  StagedUploads uploads;
+  stage_articulations(uploads, scene, index_of_body, plan.bodies, slots.status());
+  uploads.write(memory);
+}
+
 /* Tells kernels which joints are awake and where their bodies are. To be called when one of both has changed. */
 void World::Implementation::tell_joints()
 {
-  if (scene.joints.empty()) return;
+  if (scene.joints.empty() && scene.articulations.empty()) return;
   StagedUploads uploads;
   stage_bodies_of_joints(uploads, scene, joint_graph, joint_order.awake(), index_of_body, first_joined_pair(sizes()));
   stage_joints_of_couplings(uploads, scene, coupling_graph, joint_order.awake());
+  stage_articulations(uploads, scene, index_of_body, plan.bodies, slots.status());
   for (const auto &[entry, value] : joint_entries_of(joint_order.starts()))
     uploads.add_count(static_cast<uint32_t>(entry), value);
   uploads.add(Buffer::parameters, std::vector<Parameters>{parameters_now()});

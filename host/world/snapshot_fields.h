@@ -86,6 +86,12 @@ template <Is<Coupling> T, class Visit> auto visit_fields(T &record, const Visit 
                only_pulls);
 }
 
+template <Is<Articulation> T, class Visit> auto visit_fields(T &record, const Visit &visit)
+{
+  auto &[name, joints, root, armatures] = record;
+  return visit(name, joints, root, armatures);
+}
+
 /* Extensions are functions of the program; snapshots name their modules. */
 template <Is<Settings> T, class Visit> auto visit_fields(T &record, const Visit &visit)
 {

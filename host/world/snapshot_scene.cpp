@@ -202,7 +202,7 @@ std::vector<Shape> get_shapes(ByteReader &reader)
 
 void put_scene(ByteWriter &writer, const Scene &scene)
 {
-  const auto &[name, gravity, shapes, materials, bodies, joints, couplings, notes] = scene;
+  const auto &[name, gravity, shapes, materials, bodies, joints, couplings, articulations, notes] = scene;
   writer.put(name);
   writer.put(gravity);
   put_shapes(writer, shapes);
@@ -210,12 +210,13 @@ void put_scene(ByteWriter &writer, const Scene &scene)
   writer.put(bodies);
   writer.put(joints);
   writer.put(couplings);
+  writer.put(articulations);
 }
 
 Scene get_scene(ByteReader &reader)
 {
   Scene scene;
-  auto &[name, gravity, shapes, materials, bodies, joints, couplings, notes] = scene;
+  auto &[name, gravity, shapes, materials, bodies, joints, couplings, articulations, notes] = scene;
   reader.get(name);
   reader.get(gravity);
   shapes = get_shapes(reader);
@@ -223,6 +224,7 @@ Scene get_scene(ByteReader &reader)
   reader.get(bodies);
   reader.get(joints);
   reader.get(couplings);
+  reader.get(articulations);
   validate(scene, reader.where());
   return scene;
 }

@@ -202,6 +202,7 @@ void World::Implementation::undo(const Attempt &before) noexcept
 /* Restores the bodies that were quarantined by an attempt that failed later. */
 void World::Implementation::restore_bodies()
 {
+  if (!taken_out.empty()) tell_articulations();
   for (; !taken_out.empty(); taken_out.pop_back()) write_body(memory, taken_out.back().first, taken_out.back().second);
 }
 
@@ -343,6 +344,15 @@ void World::Implementation::quarantine(uint32_t index, uint32_t stage)
   slots.quarantine(body);
   if (scene.bodies[body].type == BodyType::dynamic) --awake_dynamics; /* others may leave the range of numbers too */
   ring.note({body, std::nullopt, std::nullopt});
+  if (links.has_body(body)) quarantine_tree(body, stage);
+}
+
+/* The other links go with one, because a tree moves as a whole. */
+void World::Implementation::quarantine_tree(uint32_t body, uint32_t stage)
+{
+  for (const uint32_t other : links.trees[links.of_body[body]])
+    if (slots.status()[other] != BodyStatus::quarantined) quarantine(index_of_body[other], stage);
+  tell_articulations();
 }
 
 } // namespace tandem

@@ -105,6 +105,7 @@ void Worlds::Implementation::take_out_of_quarantine(std::span<const uint32_t> nu
   }
   uploads.write(all.memory);
   std::erase_if(all.quarantined, begins_anew);
+  all.tell_articulations();
 }
 
 namespace {

@@ -41,15 +41,24 @@ SHARED void mark_body(GLOBAL uint *body_marks, uint body, uint color)
   if (ATOMIC_OR(body_marks + word, bit) & bit) ATOMIC_OR(body_marks + word + 2u, bit);
 }
 
-SHARED void mark_batches_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *body_flags,
-                              GLOBAL const uint *sort_value, GLOBAL const uint *counts, GLOBAL uint *body_marks,
-                              GLOBAL uint *pair_marks, uint i)
+/* Whether constraints of the range are solved one after another. */
+SHARED uint is_in_order(GLOBAL const Parameters *parameters, GLOBAL const uint *body_link, uint color, uint a, uint b)
+{
+  if (color == COLOR_OVERFLOW) return 1u;
+  if (!HAS_FEATURE(parameters, ARTICULATIONS) || color < LINK_COLORS) return 0u;
+  return is_link(body_link, a) | is_link(body_link, b);
+}
+
+SHARED void mark_batches_item(GLOBAL const Parameters *parameters, GLOBAL const uint *pair_a, GLOBAL const uint *pair_b,
+                              read_nodes nodes, GLOBAL const uint *sort_value, GLOBAL const uint *counts,
+                              GLOBAL uint *body_marks, GLOBAL uint *pair_marks, uint i)
 {
   uint pair = sort_value[i], color = color_at(counts, i);
   ATOMIC_ADD(pair_marks + pair, 1u);
-  if (color == COLOR_OVERFLOW) return;
-  if (is_moving(body_flags, pair_a[pair])) mark_body(body_marks, pair_a[pair], color);
-  if (is_moving(body_flags, pair_b[pair])) mark_body(body_marks, pair_b[pair], color);
+  if (is_in_order(parameters, nodes.link, color, pair_a[pair], pair_b[pair])) return;
+  uint a = node_of(parameters, nodes.link, pair_a[pair]), b = node_of(parameters, nodes.link, pair_b[pair]);
+  if (is_moving(nodes.flags, a)) mark_body(body_marks, a, color);
+  if (is_moving(nodes.flags, b) && b != a) mark_body(body_marks, b, color);
 }
 
 SHARED uint is_doubled(GLOBAL const uint *body_flags, GLOBAL const uint *body_marks, uint body, uint color)
@@ -57,14 +66,14 @@ SHARED uint is_doubled(GLOBAL const uint *body_flags, GLOBAL const uint *body_ma
   return is_moving(body_flags, body) ? body_marks[BODY_MARKS * body + 2u + (color >> 5)] >> (color & 31u) & 1u : 0u;
 }
 
-SHARED void check_batches_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *body_flags,
-                               GLOBAL const uint *sort_value, GLOBAL const uint *body_marks, GLOBAL uint *counts,
-                               uint i)
+SHARED void check_batches_item(GLOBAL const Parameters *parameters, GLOBAL const uint *pair_a,
+                               GLOBAL const uint *pair_b, read_nodes nodes, GLOBAL const uint *sort_value,
+                               GLOBAL const uint *body_marks, GLOBAL uint *counts, uint i)
 {
   uint pair = sort_value[i], color = color_at(counts, i);
-  if (color == COLOR_OVERFLOW) return;
-  if (!is_doubled(body_flags, body_marks, pair_a[pair], color) &&
-      !is_doubled(body_flags, body_marks, pair_b[pair], color))
+  if (is_in_order(parameters, nodes.link, color, pair_a[pair], pair_b[pair])) return;
+  if (!is_doubled(nodes.flags, body_marks, node_of(parameters, nodes.link, pair_a[pair]), color) &&
+      !is_doubled(nodes.flags, body_marks, node_of(parameters, nodes.link, pair_b[pair]), color))
     return;
   ATOMIC_ADD(counts + COUNT_CONFLICTS, 1u);
   ATOMIC_MIN(counts + COUNT_FIRST_CONFLICT, i);

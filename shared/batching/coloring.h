@@ -68,12 +68,13 @@ SHARED void place_bid(GLOBAL const uint *body_flags, GLOBAL uint *body_bid, uint
 /* A contact joins the overflow constraints at once if its bodies have all colours in use between them. If it waited for
  * a round, ten thousand contacts of one body would need ten thousand rounds, because one contact of a body wins
  * each. */
-SHARED void color_bid_item(GLOBAL const Parameters *parameters, read_world_pairs pairs, GLOBAL const uint *body_flags,
+SHARED void color_bid_item(GLOBAL const Parameters *parameters, read_world_pairs pairs, read_nodes nodes,
                            GLOBAL const uint *body_colors, GLOBAL uint *counts, GLOBAL uint *pair_color,
                            GLOBAL uint *body_bid, uint round, uint i)
 {
   if (pair_color[i] != COLOR_NONE) return;
-  uint a = pairs.a[i], b = pairs.b[i];
+  uint a = node_of(parameters, nodes.link, pairs.a[i]), b = node_of(parameters, nodes.link, pairs.b[i]);
+  GLOBAL const uint *body_flags = nodes.flags;
   if (free_color(body_colors, a, is_moving(body_flags, a), b, is_moving(body_flags, b)) != COLOR_OVERFLOW) {
     place_bid(body_flags, body_bid, a, b, bid_in_world(parameters, pairs, i), round);
     return;
@@ -107,26 +108,27 @@ SHARED void assign_color(GLOBAL const uint *body_flags, GLOBAL uint *counts, GLO
   ATOMIC_MAX(counts + COUNT_ROUNDS, round + 1u);
 }
 
-SHARED void color_assign_item(GLOBAL const Parameters *parameters, read_world_pairs pairs,
-                              GLOBAL const uint *body_flags, GLOBAL uint *counts, GLOBAL uint *pair_color,
-                              GLOBAL uint *body_colors, GLOBAL uint *body_bid, uint round, uint i)
+SHARED void color_assign_item(GLOBAL const Parameters *parameters, read_world_pairs pairs, read_nodes nodes,
+                              GLOBAL uint *counts, GLOBAL uint *pair_color, GLOBAL uint *body_colors,
+                              GLOBAL uint *body_bid, uint round, uint i)
 {
   if (pair_color[i] != COLOR_NONE) return;
-  assign_color(body_flags, counts, pair_color, body_colors, body_bid, pairs.a[i], pairs.b[i],
-               bid_in_world(parameters, pairs, i), round, i);
+  assign_color(nodes.flags, counts, pair_color, body_colors, body_bid, node_of(parameters, nodes.link, pairs.a[i]),
+               node_of(parameters, nodes.link, pairs.b[i]), bid_in_world(parameters, pairs, i), round, i);
 }
 
 /* The oracle: one item colours all contacts greedily in pair order. The sequential batching of the talks (GS-4150 slide
  * 42) fills batch after batch and takes each contact whose bodies are free; a contact comes into batch k if earlier
  * ones bar it from the batches before k, so "the lowest free colour, in order" gives the same batches in one pass. */
-SHARED void color_in_order_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *body_flags,
-                                GLOBAL uint *counts, GLOBAL uint *pair_color, GLOBAL uint *body_colors, uint i)
+SHARED void color_in_order_item(GLOBAL const Parameters *parameters, GLOBAL const uint *pair_a,
+                                GLOBAL const uint *pair_b, read_nodes nodes, GLOBAL uint *counts,
+                                GLOBAL uint *pair_color, GLOBAL uint *body_colors, uint i)
 {
   (void)i;
   for (uint pair = 0; pair < counts[COUNT_PAIRS]; ++pair) {
     if (pair_color[pair] != COLOR_NONE) continue;
-    uint a = pair_a[pair], b = pair_b[pair];
-    uint moving_a = is_moving(body_flags, a), moving_b = is_moving(body_flags, b);
+    uint a = node_of(parameters, nodes.link, pair_a[pair]), b = node_of(parameters, nodes.link, pair_b[pair]);
+    uint moving_a = is_moving(nodes.flags, a), moving_b = is_moving(nodes.flags, b);
     uint color = free_color(body_colors, a, moving_a, b, moving_b);
     pair_color[pair] = color;
     if (moving_a) take_color(body_colors, a, color);

@@ -16,6 +16,7 @@
 #define TANDEM_SHARED_BATCHING_MATCH_H
 
 #include "shared/argument_groups.h"
+#include "shared/batching/nodes.h"
 #include "shared/records.h"
 
 /* Cosine of the angle by which the normal of a manifold may turn in a step. */
@@ -89,10 +90,9 @@ SHARED void occupy_color(GLOBAL uint *body_colors, uint body, uint color)
 }
 
 SHARED void match_pairs_item(GLOBAL const Parameters *parameters, read_pairs pairs,
-                             GLOBAL const float4 *manifold_normal, GLOBAL const uint *manifold_count,
-                             GLOBAL const uint *body_flags, read_cached_pairs cached_pairs, GLOBAL uint *counts,
-                             GLOBAL uint *pair_cached, GLOBAL uint *pair_color, GLOBAL uint *body_colors, uint keep,
-                             uint i)
+                             GLOBAL const float4 *manifold_normal, GLOBAL const uint *manifold_count, read_nodes nodes,
+                             read_cached_pairs cached_pairs, GLOBAL uint *counts, GLOBAL uint *pair_cached,
+                             GLOBAL uint *pair_color, GLOBAL uint *body_colors, uint keep, uint i)
 {
   uint a = pairs.a[i], b = pairs.b[i];
   uint cached = find_cached(cached_pairs.start, cached_pairs.b, a, b);
@@ -100,14 +100,16 @@ SHARED void match_pairs_item(GLOBAL const Parameters *parameters, read_pairs pai
     cached = matching_manifold(manifold_normal, run_of_pair(pairs.a, pairs.b, counts[COUNT_PAIRS], i),
                                cached_pairs.normal, run_of_cached(cached_pairs.start, cached_pairs.b, a, cached), i);
   uint color = cached == INDEX_NONE || keep == 0u ? COLOR_NONE : cached_pairs.color[cached];
-  if (manifold_count[i] == 0u || has_trigger(parameters, body_flags, a, b)) color = COLOR_INACTIVE;
+  if (manifold_count[i] == 0u || has_trigger(parameters, nodes.flags, a, b)) color = COLOR_INACTIVE;
   else if (color >= COLOR_LIMIT) color = COLOR_NONE;
   pair_cached[i] = cached;
   pair_color[i] = color;
   if (color == COLOR_NONE) ATOMIC_ADD(counts + COUNT_UNCOLORED, 1u);
   if (color >= COLOR_LIMIT) return;
-  if (body_type_of(body_flags[a]) == (uint)BODY_TYPE_DYNAMIC) occupy_color(body_colors, a, color);
-  if (body_type_of(body_flags[b]) == (uint)BODY_TYPE_DYNAMIC) occupy_color(body_colors, b, color);
+  if (body_type_of(nodes.flags[a]) == (uint)BODY_TYPE_DYNAMIC)
+    occupy_color(body_colors, node_of(parameters, nodes.link, a), color);
+  if (body_type_of(nodes.flags[b]) == (uint)BODY_TYPE_DYNAMIC)
+    occupy_color(body_colors, node_of(parameters, nodes.link, b), color);
 }
 
 #endif

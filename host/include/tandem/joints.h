@@ -103,7 +103,8 @@ struct JointBreak {
 /* What a joint does, as the last step left it. A joint that is not enabled, or has never been in a step, reads 0. */
 struct JointReading {
   /* Of its impulses in the last substep, on body b at the origin of frame b, in axes of the world; body a gets the
-   * opposite. The torque is about that origin. Held axes, limits, springs, motors and friction are in them. */
+   * opposite. The torque is about that origin. Held axes, limits, springs, motors and friction are in them. NaN of a
+   * joint of an articulation, which holds its bodies without impulses. */
   std::array<double, 3> force{}, torque{}; /* N, N m */
   /* The coordinates in the order of Joint::directions and rotations, with or without a JointAxis, and how fast they
    * change; 0 for what a type has no axis for. */

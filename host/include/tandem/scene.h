@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include <tandem/articulation.h>
 #include <tandem/axes.h>
 #include <tandem/couplings.h>
 #include <tandem/error.h>
@@ -82,6 +83,8 @@ struct Scene {
   std::vector<Body> bodies;
   std::vector<Joint> joints;
   std::vector<Coupling> couplings; /* of joints */
+  /* Trees that the step has in reduced coordinates (articulations.h); the other joints hold bodies. */
+  std::vector<Articulation> articulations;
   std::vector<std::string> notes;  /* of the loader, a line each: what of its file the scene has in another way */
 };
 

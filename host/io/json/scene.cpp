@@ -125,6 +125,14 @@ template <typename Field> void each_field(const Coupling *, Field &&field)
   field("only_pulls", &Coupling::only_pulls);
 }
 
+template <typename Field> void each_field(const Articulation *, Field &&field)
+{
+  field("name", &Articulation::name);
+  field("joints", &Articulation::joints);
+  field("root", &Articulation::root);
+  field("armatures", &Articulation::armatures);
+}
+
 /* --- reading --------------------------------------------------------------------------------- */
 
 void read_value(const JsonValue &json, std::string &value) { value = json.text(); }
@@ -154,6 +162,7 @@ requires std::is_enum_v<Enum>
 void read_value(const JsonValue &json, Enum &value) { value = Enum(json.choice(names_of(value))); }
 
 void read_value(const JsonValue &json, std::array<JointAxis, 3> &axes);
+template <typename Record> void read_value(const JsonValue &json, std::vector<Record> &records);
 
 /* Keys of a record in a file that are none of its fields. */
 template <typename Record> std::vector<const char *> further_keys(const Record *) { return {}; }
@@ -267,6 +276,12 @@ requires std::is_enum_v<Enum> std::string written(Enum value)
 {
   return fmt::format("\"{}\"", names_of(value)[size_t(value)]);
 }
+template <typename Number> std::string written(const std::vector<Number> &numbers)
+{
+  std::string text;
+  for (const Number number : numbers) text += (text.empty() ? "" : ", ") + written(number);
+  return "[" + text + "]";
+}
 using ThreeAxes = std::array<JointAxis, 3>;
 std::string written(const ThreeAxes &axes);
 bool same(const ThreeAxes &a, const ThreeAxes &b) { return written(a) == written(b); }
@@ -300,6 +315,7 @@ std::string written(const ThreeAxes &axes)
 
 std::string written(const Joint &joint) { return written_record(joint, ""); }
 std::string written(const Coupling &coupling) { return written_record(coupling, ""); }
+std::string written(const Articulation &articulation) { return written_record(articulation, ""); }
 
 std::string written(const Shape &shape) { return written_shape(shape); }
 
@@ -314,8 +330,8 @@ template <typename Record> void write_list(std::string &text, const char *key, c
 
 Scene parse_scene_json(const std::string &text, const std::string &where, OutsideFiles outside)
 {
-  static constexpr const char *keys[] = {"tandem_scene", "name",   "gravity", "shapes",
-                                         "materials",    "bodies", "joints",  "couplings"};
+  static constexpr const char *keys[] = {"tandem_scene", "name",   "gravity",   "shapes",       "materials",
+                                         "bodies",       "joints", "couplings", "articulations"};
   const JsonDocument document = parse_json(text, where);
   const JsonValue root(document.value(), where);
   check_format(root);
@@ -330,6 +346,7 @@ Scene parse_scene_json(const std::string &text, const std::string &where, Outsid
   take_densities(root.member("bodies"), scene, where);
   if (auto joints = root.find("joints")) read_value(*joints, scene.joints);
   if (auto couplings = root.find("couplings")) read_value(*couplings, scene.couplings);
+  if (auto articulations = root.find("articulations")) read_value(*articulations, scene.articulations);
   validate(scene, where);
   return scene;
 }
@@ -349,6 +366,7 @@ std::string to_scene_json(const Scene &scene)
   write_list(text, "bodies", scene.bodies);
   if (!scene.joints.empty()) write_list(text, "joints", scene.joints);
   if (!scene.couplings.empty()) write_list(text, "couplings", scene.couplings);
+  if (!scene.articulations.empty()) write_list(text, "articulations", scene.articulations);
   return text + "}\n";
 }
 

@@ -22,6 +22,7 @@ void solve(StepLaunches &step, MassSplit &overflow, uint32_t pass, bool further 
   if (step.has(FEATURE_WORLDS)) step.run_overflow_joints(Kernel::solve_overflow_joints_by_world, {pass, further});
   else step.run_overflow_joints(Kernel::solve_overflow_joints, {pass});
   if (step.has(FEATURE_COUPLINGS)) solve_couplings(step, pass, further);
+  step.for_each_link_color(pass);
   overflow.solve(pass, overflow_iterations);
   solve_rolling(step);
 }
@@ -48,6 +49,7 @@ void warm_start_with_joints(StepLaunches &step)
   step.for_each_color_with_joints(Kernel::warm_start_joints, Kernel::warm_start);
   step.run_overflow_joints(step.has(FEATURE_WORLDS) ? Kernel::warm_start_overflow_joints_by_world
                                                     : Kernel::warm_start_overflow_joints);
+  step.for_each_link_color(PASS_WARM_STARTING);
   if (!step.has(FEATURE_COUPLINGS)) return;
   step.for_each_coupling_color(Kernel::warm_start_couplings);
   step.run_overflow_couplings(Kernel::warm_start_overflow_couplings);
@@ -79,6 +81,7 @@ void launch_soft_step(StepLaunches &step)
   for (uint32_t substep = 0; substep < step.settings().substeps; ++substep)
     launch_soft_step_substep(step, overflow, substep);
   apply_restitution(step, overflow);
+  if (step.has(FEATURE_RESTITUTION)) step.for_each_link_color(PASS_BOUNCING);
   if (step.has(FEATURE_JOINT_BOUNCES))
     step.for_each_joint_color(Kernel::bounce_at_limits, Kernel::bounce_at_overflow_limits);
 }

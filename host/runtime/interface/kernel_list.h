@@ -82,6 +82,8 @@ enum class Capacity : uint8_t {
   JOINTS,
   JOINT_AXES,
   COUPLINGS,
+  ARTICULATIONS,
+  LINKS,
   BODIES,
   BODIES_PLUS_ONE,
   SLEEPERS,

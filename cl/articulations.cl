@@ -1,0 +1,5 @@
+/* articulations.cl - OpenCL entries of articulations. */
+#include "cl/entry.h"
+#include "shared/articulations/kernels.h"
+
+ENTRIES(articulations)

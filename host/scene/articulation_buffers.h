@@ -1,0 +1,51 @@
+/* articulation_buffers.h - the articulations of a scene as the tables that kernels read, and what a step has no
+ * articulations with. */
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <tandem/scene.h>
+#include <tandem/settings.h>
+
+#include "host/scene/body_status.h"
+#include "host/scene/staged_uploads.h"
+
+namespace tandem {
+
+/* By joint of the scene: whether it is a coordinate of an articulation, so that it holds no bodies as others do. */
+std::vector<bool> articulated_joints(const Scene &scene);
+
+/* The links of all articulations, in the order of the tables. */
+constexpr uint32_t no_link = 0xffffffffu;
+struct JointedLinks {
+  uint32_t count = 0;
+  std::vector<uint32_t> of_joint, body_of_joint; /* by joint of the scene: its link, and the body of that; or no_link */
+  std::vector<std::vector<uint32_t>> trees;      /* the bodies of each articulation */
+  std::vector<uint32_t> of_body;                 /* by body of the scene: its articulation, or no_link */
+
+  bool has_body(uint32_t body) const { return body < of_body.size() && of_body[body] != no_link; }
+};
+/* The articulations have been validated. */
+JointedLinks links_of(const Scene &scene);
+
+/* Throws InputError if a joint of a tree cannot be as it is. */
+void check_joint_of_tree(const Joint &joint, size_t index, const std::string &where);
+
+/* The axes of joints of trees; none given: of all. Others than those of trees are passed over. */
+void stage_link_axes(StagedUploads &uploads, const Scene &scene, std::span<const uint32_t> joints,
+                     const JointedLinks &links);
+
+/* Throws InputError that names the first articulation, joint or body that cannot be simulated. */
+void check_articulations(const Scene &scene, const std::string &where);
+
+/* Throws InputError if the settings ask for what has no articulations. */
+void check_articulations(const Settings &settings, const Scene &scene);
+
+/* index_of_body: of each body of the scene. room: for bodies, in the buffers. */
+void stage_articulations(StagedUploads &uploads, const Scene &scene, std::span<const uint32_t> index_of_body,
+                         size_t room, const std::vector<BodyStatus> &status);
+
+} // namespace tandem

@@ -1,0 +1,283 @@
+/* contact.h - contacts of which a side is a link: the rows of solve/contact.h, with the response of the tree.
+ *
+ *   load     velocities with all that is pending in the trees      O(depth)
+ *   solve    friction at the centre, then the normals as a block, against the inverse inertias of the sides
+ *   pass on  the sum of the impulses, through the trees            O(depth)
+ *
+ * An articulation is one node of the graph of contacts, so a contact of a colour has its trees for itself, and every
+ * contact sees all that the others have done: nothing lags. Two links of one tree push each other through it as well.
+ * What each row leaves out then, at most doubles its response, so their masses are half of what they were apart
+ * (|2 x C y| <= x A x + y B y), and the velocities are read again between friction and normals.
+ */
+#ifndef TANDEM_SHARED_ARTICULATIONS_CONTACT_H
+#define TANDEM_SHARED_ARTICULATIONS_CONTACT_H
+
+#include "shared/articulations/contact_side.h"
+#include "shared/solve/contact.h"
+
+typedef struct {
+  contact_side a, b;
+  contact shape;  /* normal, friction and arms; without velocities */
+  uint is_within; /* both are links of one tree */
+  arm_shift shift;
+  vec4 offset, center_a, center_b;
+  delta_pose moved;
+} link_contact;
+
+SHARED link_contact load_link_contact(GLOBAL const Parameters *parameters, read_contacts contacts, read_patches patches,
+                                      read_turning_bodies bodies, read_links links, write_link_states states,
+                                      GLOBAL const float4 *solver_velocity, uint i)
+{
+  link_contact c;
+  c.shape = load_contact(parameters, contacts, solver_velocity, bodies.inertia, i);
+  c.a = load_contact_side(parameters, links, states, bodies.inertia, solver_velocity, c.shape.a);
+  c.b = load_contact_side(parameters, links, states, bodies.inertia, solver_velocity, c.shape.b);
+  c.is_within = c.a.is_link && c.b.is_link && c.a.tree.number == c.b.tree.number ? 1u : 0u;
+  c.moved = load_delta_pose(bodies.delta, c.shape);
+  c.shift = shift_of_contact(c.shape, c.moved.translation);
+  c.offset = load_float4(patches.offset, i);
+  c.center_a = load_float4(patches.center, i);
+  c.center_b = center_of_b(c.center_a, c.offset);
+  return c;
+}
+
+/* --- rows ----------------------------------------------------------------------------------------------------- */
+/* The impulse that a row gives to b; a gets its opposite, at its own arm. */
+typedef struct {
+  spatial_force a, b;
+} contact_row;
+
+SHARED contact_row row_along(vec3 arm_a, vec3 arm_b, vec3 direction)
+{
+  contact_row r = {impulse_at(arm_a, direction), impulse_at(arm_b, direction)};
+  return r;
+}
+
+SHARED real response_of_rows(const link_contact *c, contact_row first, contact_row second)
+{
+  real apart = response_of_contact_side(&c->a, first.a, second.a) + response_of_contact_side(&c->b, first.b, second.b);
+  return c->is_within ? R(2.0) * apart : apart;
+}
+SHARED real speed_of_row(const link_contact *c, contact_row r)
+{
+  return power_of(r.b, c->b.velocity) - power_of(r.a, c->a.velocity);
+}
+
+SHARED void push_row(link_contact *c, contact_row r, real impulse)
+{
+  push_contact_side(&c->a, scaled_force(r.a, -impulse));
+  push_contact_side(&c->b, scaled_force(r.b, impulse));
+}
+
+SHARED void push_both_into_tree(link_contact *c)
+{
+  push_into_tree(&c->a);
+  push_into_tree(&c->b);
+  c->a.velocity = pending_velocity(&c->a.tree, c->a.k);
+  c->b.velocity = pending_velocity(&c->b.tree, c->b.k);
+}
+
+/* --- friction ------------------------------------------------------------------------------------------------- */
+SHARED real twist_of_contact(link_contact *c, real old, real limit)
+{
+  contact_row r = {twist_about(c->shape.normal), twist_about(c->shape.normal)};
+  real mass = inverse_or_zero(response_of_rows(c, r, r));
+  real twist = clamped(old - mass * speed_of_row(c, r), -limit, limit);
+  push_row(c, r, twist - old);
+  return twist;
+}
+
+/* As friction_mass in setup/contact.h, where the tree stands now. */
+SHARED real sliding_mass(const link_contact *c, contact_row first, contact_row second)
+{
+  real one = response_of_rows(c, first, first), other = response_of_rows(c, second, second);
+  real mixed = response_of_rows(c, first, second), difference = one - other;
+  return inverse_or_zero(R(0.5) * (one + other + square_root(difference * difference + R(4.0) * mixed * mixed)));
+}
+
+/* impulse: along the tangents and about the normal; the radius of the patch. */
+SHARED vec4 solve_link_friction(link_contact *c, vec4 impulse, real normal_impulse_sum)
+{
+  real limit = c->shape.friction * normal_impulse_sum;
+  real twist = twist_of_contact(c, impulse.z, limit * impulse.w);
+  tangents t = tangents_of(c->shape.normal);
+  vec3 arm_a = add(xyz(c->center_a), c->shift.a), arm_b = add(xyz(c->center_b), c->shift.b);
+  contact_row first = row_along(arm_a, arm_b, t.first), second = row_along(arm_a, arm_b, t.second);
+  real mass = sliding_mass(c, first, second);
+  real x = impulse.x - mass * speed_of_row(c, first), y = impulse.y - mass * speed_of_row(c, second);
+  real squared = x * x + y * y;
+  mask slips = squared > limit * limit;
+  real shrink = choose(slips, limit / square_root(choose(slips, squared, (real)R(1.0))), (real)R(1.0));
+  x = x * shrink;
+  y = y * shrink;
+  push_row(c, row_along(arm_a, arm_b, add(scale(t.first, x - impulse.x), scale(t.second, y - impulse.y))), R(1.0));
+  return make_vec4(x, y, twist, impulse.w);
+}
+
+/* --- normals -------------------------------------------------------------------------------------------------- */
+typedef struct {
+  contact_row row[4];
+  real mass[4], impulse[4], separation[4];
+} link_normals;
+
+SHARED link_normals load_link_normals(const link_contact *c, read_patches patches, point_planes planes, vec4 impulses,
+                                      uint i)
+{
+  link_normals s;
+  for (uint k = 0; k < 4u; ++k) {
+    vec3 arm_a = load_arm_of_a(patches.points, planes, k, i), arm_b = subtract(arm_a, xyz(c->offset));
+    s.row[k] = row_along(add(arm_a, c->shift.a), add(arm_b, c->shift.b), c->shape.normal);
+    mask used = load_point_mass(patches.points, planes, k, i) > R(0.0);
+    s.mass[k] = used ? inverse_or_zero(response_of_rows(c, s.row[k], s.row[k])) : (real)R(0.0);
+    s.impulse[k] = component(impulses, k);
+    s.separation[k] = load_separation(patches.points, planes, k, i) + dot3(c->shape.normal, c->moved.translation) +
+                      (dot3(s.row[k].b.moment, c->moved.rotation_b) - dot3(s.row[k].a.moment, c->moved.rotation_a));
+  }
+  return s;
+}
+
+/* block_solve_normals of solve/contact.h: all points move towards their targets along one direction. */
+SHARED void block_solve_link_normals(link_contact *c, link_normals *s, const real *target)
+{
+  real change[4], own = R(0.0);
+  contact_row sum = {no_force(), no_force()};
+  for (uint k = 0; k < 4u; ++k) {
+    mask used = s->mass[k] > R(0.0);
+    change[k] = choose(used, maximum(target[k], R(0.0)) - s->impulse[k], (real)R(0.0));
+    own = own + change[k] * (target[k] - s->impulse[k]) / choose(used, s->mass[k], (real)R(1.0));
+    sum.a = add_forces(sum.a, scaled_force(s->row[k].a, change[k]));
+    sum.b = add_forces(sum.b, scaled_force(s->row[k].b, change[k]));
+  }
+  real whole = response_of_rows(c, sum, sum);
+  real share = minimum(own / choose(whole > R(0.0), whole, (real)R(1.0)), R(2.0));
+  mask pulls = s->impulse[0] + share * change[0] < R(0.0);
+  for (uint k = 1; k < 4u; ++k) pulls = pulls | (s->impulse[k] + share * change[k] < R(0.0));
+  share = choose(pulls, minimum(share, R(1.0)), share);
+  for (uint k = 0; k < 4u; ++k) s->impulse[k] = s->impulse[k] + share * change[k];
+  push_row(c, sum, share);
+}
+
+SHARED void solve_link_normals(GLOBAL const Parameters *parameters, link_contact *c, link_normals *s, real slop,
+                               uint biased)
+{
+  softness soft = softness_of(parameters, c->shape);
+  real target[4];
+  for (uint k = 0; k < 4u; ++k)
+    target[k] = normal_impulse(parameters, soft, slop, s->separation[k], speed_of_row(c, s->row[k]), s->mass[k],
+                               s->impulse[k], biased);
+  block_solve_link_normals(c, s, target);
+}
+
+/* Towards the target velocities of restitution, as apply_restitution_item of solve/contact.h. */
+SHARED void bounce_link_normals(link_contact *c, link_normals *s, vec4 target_velocity, vec4 highest)
+{
+  real wanted[4];
+  for (uint k = 0; k < 4u; ++k) {
+    real target = component(target_velocity, k);
+    mask applies = (target >= R(0.0)) & (component(highest, k) > R(0.0));
+    wanted[k] = choose(applies, s->impulse[k] - s->mass[k] * (speed_of_row(c, s->row[k]) - target), s->impulse[k]);
+  }
+  block_solve_link_normals(c, s, wanted);
+}
+
+SHARED vec4 impulses_of_normals(const link_normals *s)
+{
+  return make_vec4(s->impulse[0], s->impulse[1], s->impulse[2], s->impulse[3]);
+}
+
+/* --- kernels -------------------------------------------------------------------------------------------------- */
+/* All impulses of the contact. */
+SHARED contact_row row_of_impulses(const link_contact *c, const link_normals *s, vec4 friction)
+{
+  tangents t = tangents_of(c->shape.normal);
+  vec3 slide = add(scale(t.first, friction.x), scale(t.second, friction.y));
+  contact_row r = row_along(add(xyz(c->center_a), c->shift.a), add(xyz(c->center_b), c->shift.b), slide);
+  spatial_force twist = twist_about(scale(c->shape.normal, friction.z));
+  r.a = add_forces(r.a, twist);
+  r.b = add_forces(r.b, twist);
+  for (uint k = 0; k < 4u; ++k) {
+    r.a = add_forces(r.a, scaled_force(s->row[k].a, s->impulse[k]));
+    r.b = add_forces(r.b, scaled_force(s->row[k].b, s->impulse[k]));
+  }
+  return r;
+}
+
+SHARED void store_link_contact(link_contact *c, GLOBAL float4 *solver_velocity)
+{
+  store_contact_side(&c->a, solver_velocity);
+  store_contact_side(&c->b, solver_velocity);
+}
+
+/* Rows of impulses are read and written by the kernels below as those of solve/contact.h do. */
+SHARED void solve_link_contact(GLOBAL const Parameters *parameters, link_contact *c, read_patches patches,
+                               point_planes planes, write_contact_impulses impulses, GLOBAL float4 *warm_start_impulse,
+                               uint pass, uint i)
+{
+  vec4 normal = load_float4(impulses.normal, i), friction = load_friction(parameters, impulses.friction, i);
+  if (HAS_FEATURE(parameters, FRICTION) && c->shape.friction > R(0.0)) {
+    friction = solve_link_friction(c, friction, (normal.x + normal.y) + (normal.z + normal.w));
+    store_float4(impulses.friction, i, friction);
+    if (c->is_within) push_both_into_tree(c);
+  }
+  link_normals s = load_link_normals(c, patches, planes, normal, i);
+  real slop = load_real(patches.slop, i);
+  uint rounds = c->shape.follows == R(0.0) ? IMPACT_ROUNDS + 1u : 1u;
+  for (uint round = 0; round < rounds; ++round)
+    solve_link_normals(parameters, c, &s, slop, pass == (uint)PASS_BIASED ? 1u : 0u);
+  normal = impulses_of_normals(&s);
+  store_float4(impulses.normal, i, normal);
+  keep_highest_impulses(parameters, impulses.restitution, planes.stride, normal, i);
+  if (pass != (uint)PASS_RELAXING) return;
+  contact_row all = row_of_impulses(c, &s, friction);
+  add_warm_start_of_side(&c->a, scaled_force(all.a, R(-1.0)), parameters->inverse_substep, warm_start_impulse);
+  add_warm_start_of_side(&c->b, all.b, parameters->inverse_substep, warm_start_impulse);
+}
+
+SHARED void warm_start_link_contact(GLOBAL const Parameters *parameters, link_contact *c, read_patches patches,
+                                    point_planes planes, write_contact_impulses impulses, uint i)
+{
+  link_normals s = load_link_normals(c, patches, planes, load_float4(impulses.normal, i), i);
+  push_row(c, row_of_impulses(c, &s, load_friction(parameters, impulses.friction, i)), R(1.0));
+}
+
+SHARED void bounce_link_contact(link_contact *c, read_patches patches, point_planes planes,
+                                write_contact_impulses impulses, uint i)
+{
+  vec4 target_velocity = load_float4(impulses.restitution, i),
+       highest = load_float4(impulses.restitution, planes.stride + i);
+  if (target_velocity.x < R(0.0) && target_velocity.y < R(0.0) && target_velocity.z < R(0.0) &&
+      target_velocity.w < R(0.0))
+    return;
+  link_normals s = load_link_normals(c, patches, planes, load_float4(impulses.normal, i), i);
+  for (uint round = 0; round < RESTITUTION_ROUNDS; ++round) bounce_link_normals(c, &s, target_velocity, highest);
+  store_float4(impulses.normal, i, impulses_of_normals(&s));
+}
+
+SHARED void solve_link_contacts_item(GLOBAL const Parameters *parameters, read_contacts contacts, read_patches patches,
+                                     read_turning_bodies bodies, read_links links, GLOBAL const uint *counts,
+                                     write_link_states states, write_contact_impulses contact_impulses,
+                                     GLOBAL float4 *solver_velocity, GLOBAL float4 *warm_start_impulse, uint pass,
+                                     uint i)
+{
+  point_planes planes = planes_of(counts);
+  link_contact c = load_link_contact(parameters, contacts, patches, bodies, links, states, solver_velocity, i);
+  if (pass == (uint)PASS_WARM_STARTING) warm_start_link_contact(parameters, &c, patches, planes, contact_impulses, i);
+  else if (pass == (uint)PASS_BOUNCING) bounce_link_contact(&c, patches, planes, contact_impulses, i);
+  else solve_link_contact(parameters, &c, patches, planes, contact_impulses, warm_start_impulse, pass, i);
+  store_link_contact(&c, solver_velocity);
+}
+
+/* The contacts of links that share colours with others, one after another. */
+SHARED void solve_link_contacts_in_order_item(GLOBAL const Parameters *parameters, read_contacts contacts,
+                                              read_patches patches, read_turning_bodies bodies, read_links links,
+                                              GLOBAL const uint *counts, write_link_states states,
+                                              write_contact_impulses contact_impulses, GLOBAL float4 *solver_velocity,
+                                              GLOBAL float4 *warm_start_impulse, uint pass, uint i)
+{
+  (void)i;
+  for (uint k = counts[LINK_COLOR_START + LINK_COLORS]; k < counts[COLOR_START + LINK_COLORS + 1u]; ++k)
+    solve_link_contacts_item(parameters, contacts, patches, bodies, links, counts, states, contact_impulses,
+                             solver_velocity, warm_start_impulse, pass, k);
+}
+
+#endif

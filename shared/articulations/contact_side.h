@@ -1,0 +1,130 @@
+/* contact_side.h - one body of a contact that touches a link: the link of a tree, or any other body.
+ *
+ * Both answer to an impulse with a 6x6 inverse inertia (spatial.h). That of a link is its inverse inertia within the
+ * tree (link_inertia.h), so the effective mass of a row is exact, whatever the tree is and wherever it is held. What
+ * the rows of a contact push with is summed up, and goes through the tree once the contact is solved.
+ */
+#ifndef TANDEM_SHARED_ARTICULATIONS_CONTACT_SIDE_H
+#define TANDEM_SHARED_ARTICULATIONS_CONTACT_SIDE_H
+
+#include "shared/articulations/bodies.h"
+
+typedef struct {
+  uint body, is_link, k;
+  articulation tree;       /* of a link alone */
+  spatial_velocity record; /* of the body in solver_velocity; of a link its masses count alone */
+  spatial_motion velocity;
+  symmetric6 inverse;
+  spatial_force pushed; /* since the velocity was loaded */
+} contact_side;
+
+/* The motion of a link with what is pending in its tree. */
+SHARED spatial_motion pending_velocity(const articulation *t, uint k)
+{
+  vec3 of_joint;
+  return add_motions(load_motion(t, k, (uint)WORK_VELOCITY), pending_change(t, k, &of_joint));
+}
+
+/* Kept as inverse_times wants it: `first` takes forces to linear motion. */
+SHARED symmetric6 inverse_of_single_body(spatial_velocity m, symmetric3 inertia, uint_lanes locks)
+{
+  vec3 free = without_locked_axes(make_vec3(m.inverse_mass, m.inverse_mass, m.inverse_mass), locks);
+  symmetric6 s = zero_symmetric6();
+  s.first.xx = free.x;
+  s.first.yy = free.y;
+  s.first.zz = free.z;
+  s.second = inertia;
+  return s;
+}
+
+SHARED contact_side load_single_body(GLOBAL const Parameters *parameters, GLOBAL const float4 *solver_inertia,
+                                     contact_side s)
+{
+  real locks;
+  symmetric3 inertia = load_inertia_and_locks(parameters, solver_inertia, s.body, s.record, &locks);
+  s.velocity.linear = s.record.linear;
+  s.velocity.angular = s.record.angular;
+  s.inverse = inverse_of_single_body(s.record, inertia, to_uint(locks));
+  return s;
+}
+
+SHARED contact_side load_contact_side(GLOBAL const Parameters *parameters, read_links links, write_link_states states,
+                                      GLOBAL const float4 *solver_inertia, GLOBAL const float4 *solver_velocity,
+                                      uint body)
+{
+  contact_side s;
+  s.body = body;
+  s.is_link = is_link(links.of_body, body);
+  s.k = links.of_body[LINK_WORDS * body + 2u];
+  s.record = load_velocity(solver_velocity, body);
+  s.pushed = no_force();
+  s.tree = articulation_at(links, states, s.is_link ? articulation_of_body(links.of_body, body) : 0u);
+  if (!s.is_link) return load_single_body(parameters, solver_inertia, s);
+  s.velocity = pending_velocity(&s.tree, s.k);
+  s.inverse = load_symmetric6(&s.tree, s.k);
+  return s;
+}
+
+SHARED vec3 velocity_of_side(const contact_side *s, vec3 arm) { return motion_at(s->velocity, arm).linear; }
+
+/* An impulse along a direction at the end of an arm, or of the pair of impulses that twists about it. */
+SHARED spatial_force impulse_at(vec3 arm, vec3 impulse)
+{
+  spatial_force f = {cross3(arm, impulse), impulse};
+  return f;
+}
+SHARED spatial_force twist_about(vec3 moment)
+{
+  spatial_force f = {moment, zero3()};
+  return f;
+}
+
+/* How fast the side moves along `second` by the impulse `first`. */
+SHARED real response_of_contact_side(const contact_side *s, spatial_force first, spatial_force second)
+{
+  return power_of(second, inverse_times(&s->inverse, first));
+}
+
+SHARED void push_contact_side(contact_side *s, spatial_force impulse)
+{
+  s->velocity = add_motions(s->velocity, inverse_times(&s->inverse, impulse));
+  s->pushed = add_forces(s->pushed, impulse);
+}
+
+/* What a link was pushed with goes through its tree; then its velocity is that of the tree. */
+SHARED void push_into_tree(contact_side *s)
+{
+  if (!s->is_link) return;
+  push_link(&s->tree, s->k, s->pushed);
+  if (is_nonzero(s->pushed.force) | is_nonzero(s->pushed.moment)) note_pushed(&s->tree, R(1.0));
+  s->pushed = no_force();
+}
+
+SHARED void store_contact_side(contact_side *s, GLOBAL float4 *solver_velocity)
+{
+  push_into_tree(s);
+  if (s->is_link || !(s->record.inverse_mass > R(0.0))) return;
+  s->record.linear = s->velocity.linear;
+  s->record.angular = s->velocity.angular;
+  store_velocity(solver_velocity, s->body, s->record);
+}
+
+/* Adds to the warm start of the next substep. */
+SHARED void add_warm_start_of_side(const contact_side *s, spatial_force impulse, real inverse_substep,
+                                   GLOBAL float4 *warm_start_impulse)
+{
+  if (s->is_link) {
+    vec3 force = add_scaled(xyz(load_state(&s->tree, s->k, (uint)STATE_FORCE)), impulse.force, inverse_substep);
+    vec3 moment = add_scaled(xyz(load_state(&s->tree, s->k, (uint)STATE_MOMENT)), impulse.moment, inverse_substep);
+    store_state(1, &s->tree, s->k, (uint)STATE_FORCE, extend(force, R(0.0)));
+    store_state(1, &s->tree, s->k, (uint)STATE_MOMENT, extend(moment, R(0.0)));
+    return;
+  }
+  if (!(s->record.inverse_mass > R(0.0))) return;
+  vec3 linear = add(xyz(load_float4(warm_start_impulse, s->body * 2u)), impulse.force);
+  vec3 angular = add(xyz(load_float4(warm_start_impulse, s->body * 2u + 1u)), impulse.moment);
+  store_float4(warm_start_impulse, s->body * 2u, extend(linear, R(0.0)));
+  store_float4(warm_start_impulse, s->body * 2u + 1u, extend(angular, R(0.0)));
+}
+
+#endif

@@ -1,0 +1,11 @@
+/* kernels.h - articulations: links in reduced coordinates, and their contacts.
+ *
+ * cl/articulations.cl and the widths of MiniCL (shared/kernels.h) include the kernels of this stage from here alone. */
+#ifndef TANDEM_SHARED_ARTICULATIONS_KERNELS_H
+#define TANDEM_SHARED_ARTICULATIONS_KERNELS_H
+
+#include "shared/articulations/colors.h"
+#include "shared/articulations/contact.h"
+#include "shared/articulations/step.h"
+
+#endif

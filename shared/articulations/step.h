@@ -1,0 +1,112 @@
+/* step.h - the kernels of articulations in a step: an item is a tree (substep.h has the order of a substep).
+ *
+ *   begin_articulations         coordinates from bodies; the tree is factored
+ *   each substep
+ *     accelerate_articulations  gravity, forces, drives, and the warm start of contacts and rows
+ *     solve_articulations       rows of joints; with the contacts of links (contact.h) before it, what is pending
+ *                               becomes velocities
+ *     move_articulations        to the next configuration
+ *     solve_articulations       relaxing
+ */
+#ifndef TANDEM_SHARED_ARTICULATIONS_STEP_H
+#define TANDEM_SHARED_ARTICULATIONS_STEP_H
+
+#include "shared/articulations/bodies.h"
+#include "shared/articulations/rows.h"
+
+SHARED void begin_articulations_item(GLOBAL const Parameters *parameters, read_links links, read_bodies bodies,
+                                     write_link_states states, write_moved_bodies moved, uint i)
+{
+  articulation t = articulation_at(links, states, i);
+  read_articulation(links, bodies, &t);
+  prepare_tree(&t, parameters->substep);
+  write_velocities(links, &t, moved.velocity);
+  write_poses(links, bodies, &t, moved.delta, moved.orientation);
+}
+
+/* Adds what pushes a link besides the gravity that all links have: the force on its body, and the share of gravity by
+ * which its factor differs from 1. has_forces: whether the scene has forces. */
+SHARED void load_body_force(read_links links, GLOBAL const float4 *body_mass, GLOBAL const float4 *solver_force,
+                            const articulation *t, uint k, vec3 gravity, uint has_forces)
+{
+  uint body = body_of_link(links, t, k);
+  tree_link l = tree_link_of(t, k);
+  vec3 force = xyz(load_state(t, k, (uint)STATE_FORCE)), moment = xyz(load_state(t, k, (uint)STATE_MOMENT));
+  force = add_scaled(force, gravity, mass_of_link(t, l) * (load_float4(body_mass, body).w - R(1.0)));
+  if (has_forces) {
+    force = add(force, xyz(load_float4(solver_force, body * 2u)));
+    moment = add(moment, xyz(load_float4(solver_force, body * 2u + 1u)));
+  }
+  store_state(1, t, k, (uint)STATE_FORCE, extend(force, R(0.0)));
+  store_state(1, t, k, (uint)STATE_MOMENT, extend(moment, R(0.0)));
+}
+
+/* STATE_FORCE and STATE_MOMENT hold what the contacts of the last substep pushed with; those of this one are gathered
+ * anew. */
+SHARED void clear_outer_forces(const articulation *t)
+{
+  vec4 none = extend(zero3(), R(0.0));
+  for (uint k = 0; k < t->links; ++k) {
+    store_state(1, t, k, (uint)STATE_FORCE, none);
+    store_state(1, t, k, (uint)STATE_MOMENT, none);
+  }
+}
+
+SHARED void accelerate_articulations_item(GLOBAL const Parameters *parameters, read_links links,
+                                          GLOBAL const float4 *body_mass, GLOBAL const float4 *body_gravity,
+                                          GLOBAL const float4 *solver_force, write_link_states states,
+                                          GLOBAL float4 *solver_velocity, uint has_forces, uint i)
+{
+  articulation t = articulation_at(links, states, i);
+  vec3 gravity = gravity_at(parameters, body_gravity, body_of_link(links, &t, 0u));
+  for (uint k = 0; k < t.links; ++k) load_body_force(links, body_mass, solver_force, &t, k, gravity, has_forces);
+  accelerate_tree(&t, gravity, parameters->substep);
+  clear_outer_forces(&t);
+  write_velocities(links, &t, solver_velocity);
+}
+
+/* pass: PASS_BOUNCING has no rows; it settles what the contacts have pushed. */
+SHARED void solve_articulations_item(GLOBAL const Parameters *parameters, read_links links, write_link_states states,
+                                     GLOBAL float4 *solver_velocity, uint pass, uint i)
+{
+  articulation t = articulation_at(links, states, i);
+  if (pass != (uint)PASS_BOUNCING) solve_tree_rows(parameters, &t, pass);
+  settle_tree(&t);
+  write_velocities(links, &t, solver_velocity);
+}
+
+/* Whether a free tree falls as one body does whose contacts are out of reach (integrate/positions.h): all of its links
+ * have the gravity of the world, and no contact bears or has pushed any. */
+SHARED uint tree_falls_freely(read_links links, GLOBAL const float4 *body_mass, GLOBAL const uint *body_falls,
+                              const articulation *t)
+{
+  uint falls = tree_link_of(t, 0u).is_free && !is_pushed(t) ? 1u : 0u;
+  for (uint k = 0; k < t->links; ++k) {
+    uint body = body_of_link(links, t, k);
+    if (body_falls[body] == 0u || load_float4(body_mass, body).w != R(1.0)) falls = 0u;
+  }
+  return falls;
+}
+
+/* Takes back what the symplectic Euler step falls too far, so that the tree moves on the exact parabola. */
+SHARED void return_to_parabola(const articulation *t, vec3 gravity, real h)
+{
+  double_float3 at = moved_position(root_position(t), scale(gravity, R(-0.5) * h * h));
+  store_root(1, t, (uint)ROOT_POSITION, extend(at.high, R(0.0)));
+  store_root(1, t, (uint)ROOT_POSITION + 1u, extend(at.low, R(0.0)));
+}
+
+SHARED void move_articulations_item(GLOBAL const Parameters *parameters, read_links links, read_bodies bodies,
+                                    GLOBAL const float4 *body_mass, GLOBAL const uint *body_falls,
+                                    write_link_states states, write_moved_bodies moved, uint i)
+{
+  articulation t = articulation_at(links, states, i);
+  move_tree_freely(&t, parameters->substep);
+  if (tree_falls_freely(links, body_mass, body_falls, &t))
+    return_to_parabola(&t, gravity_at(parameters, bodies.gravity, body_of_link(links, &t, 0u)), parameters->substep);
+  note_pushed(&t, R(0.0));
+  write_velocities(links, &t, moved.velocity);
+  write_poses(links, bodies, &t, moved.delta, moved.orientation);
+}
+
+#endif

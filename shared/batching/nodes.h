@@ -1,0 +1,23 @@
+/* nodes.h - the nodes of the graph of contacts: bodies, and articulations.
+ *
+ * An impulse on a link changes the velocities of all links of its articulation, so these are one node, for which the
+ * body of the root stands.
+ */
+#ifndef TANDEM_SHARED_BATCHING_NODES_H
+#define TANDEM_SHARED_BATCHING_NODES_H
+
+#include "shared/batching/node_words.h"
+#include "shared/records.h"
+
+SHARED uint node_of(GLOBAL const Parameters *parameters, GLOBAL const uint *body_link, uint body)
+{
+  return HAS_FEATURE(parameters, ARTICULATIONS) ? body_link[LINK_WORDS * body] : body;
+}
+
+SHARED uint articulation_of_body(GLOBAL const uint *body_link, uint body) { return body_link[LINK_WORDS * body + 1u]; }
+SHARED uint is_link(GLOBAL const uint *body_link, uint body)
+{
+  return articulation_of_body(body_link, body) != INDEX_NONE ? 1u : 0u;
+}
+
+#endif

@@ -1,0 +1,69 @@
+/* articulations.h - scenes with articulations for the tests of equal bits. */
+#pragma once
+
+#include "tests/parity/joints.h"
+
+namespace tandem::parity {
+
+/* Trees of boxes with random joints that fall on the ground, on one another and on boxes; some are held by the world,
+ * and one is a chain with more contacts than there are colours. shape: of all that moves. */
+inline Scene tree_crowd(uint64_t seed = 1, uint32_t trees = 12, uint32_t chain = 70,
+                        const Shape &shape = box_shape(0.2f, 0.1f, 0.15f))
+{
+  using namespace physics_tests;
+  constexpr JointType types[] = {JointType::hinge, JointType::hinge, JointType::slider, JointType::ball,
+                                 JointType::fixed};
+  Random random(seed);
+  Scene scene = empty_scene();
+  scene.name = "crowd of trees";
+  add_ground(scene);
+  const auto add_link = [&](const Vector &at) {
+    Body &body = add_body(scene, BodyType::dynamic, shape, point_of(at));
+    body.orientation = any_turn(random);
+    body.mass = float(random.uniform(0.5, 2));
+    body.gravity_factor = random.below(8) == 0 ? 0.5f : 1.0f;
+    return uint32_t(scene.bodies.size() - 1);
+  };
+  const auto join = [&](Articulation &tree, JointType type, uint32_t a, uint32_t b, const Vector &at) {
+    Joint &joint = connect(scene, type, a, b, at, direction(random));
+    JointAxis &axis = type == JointType::slider ? joint.directions[0] : joint.rotations[0];
+    if (random.below(2) == 0 && type != JointType::fixed) axis.damping = 0.5f;
+    if (random.below(3) == 0 && type != JointType::fixed) axis.stiffness = 20;
+    if (type == JointType::ball) joint.rotations = {axis, axis, axis};
+    if (random.below(3) == 0 && (type == JointType::hinge || type == JointType::slider))
+      axis.lower = -0.2f, axis.upper = 0.3f, axis.friction = 0.5f;
+    if (random.below(6) == 0 && type == JointType::hinge) axis = {.target_velocity = 2, .motor = true, .max_force = 5};
+    tree.joints.push_back(uint32_t(scene.joints.size() - 1));
+  };
+  for (uint32_t i = 0; i < trees; ++i) {
+    Articulation tree;
+    const Vector at(1.1 * (i % 4), 0.5 + 0.8 * (i / 8), 1.1 * (i / 4 % 2));
+    const uint32_t root = add_link(at), links = 1 + random.below(8);
+    std::vector<uint32_t> of_tree{root};
+    if (i % 4 == 3) join(tree, types[random.below(4)], no_body, root, at + Vector(0, 0.3, 0));
+    else tree.root = root;
+    for (uint32_t k = 1; k < links; ++k) {
+      const uint32_t parent = of_tree[random.below(uint32_t(of_tree.size()))];
+      const Vector from = vector_of(scene.bodies[parent].position), way = 0.35 * direction(random);
+      of_tree.push_back(add_link(from + way));
+      const bool turned = random.below(2) == 0;
+      join(tree, types[random.below(5)], turned ? of_tree.back() : parent, turned ? parent : of_tree.back(),
+           from + 0.5 * way);
+    }
+    scene.articulations.push_back(tree);
+  }
+  Articulation long_chain;
+  for (uint32_t k = 0; k < chain; ++k) {
+    const Vector at(0.42 * k - 2, 0.15, -1.5);
+    const uint32_t link = add_link(at);
+    scene.bodies[link].orientation = {0, 0, 0, 1};
+    if (k == 0) long_chain.root = link;
+    else join(long_chain, JointType::ball, link - 1, link, at - Vector(0.21, 0, 0));
+  }
+  if (chain > 0) scene.articulations.push_back(long_chain);
+  for (uint32_t i = 0; i < trees; ++i)
+    add_body(scene, BodyType::dynamic, shape, {1.1 * (i % 4) + 0.3, 2.2, 1.1 * (i / 4 % 2) - 0.2}).mass = 0.7f;
+  return scene;
+}
+
+} // namespace tandem::parity

@@ -1,0 +1,85 @@
+/* Articulations give the serial backend's bits on every backend, in batches of worlds, and from every state that was
+ * kept or written down. */
+#include "tests/host/runtime/opencl/pocl.h"
+#include "tests/host/world/worlds.h"
+#include "tests/parity/articulations.h"
+
+namespace tandem::parity {
+namespace {
+
+using namespace physics_tests;
+using tests::BatchBesideWorlds;
+
+Settings watched()
+{
+  Settings settings;
+  settings.events = settings.check = true;
+  return settings;
+}
+
+uint64_t hash_of_trees(const Scene &scene, int steps, const Settings &settings, const Placement &placement)
+{
+  World world(scene, settings, placement);
+  run(world, steps);
+  return world.state_hash();
+}
+
+} // namespace
+
+TEST_CASE("parity on CPU: articulations in a heap, held and free, past the last colour")
+{
+  require_parity(tree_crowd(), cpu_backends(), 25, watched());
+  Scene bouncing = tree_crowd(2, 8, 0);
+  bouncing.materials[0].restitution = 0.6f;
+  require_parity(bouncing, cpu_backends(), 40, watched());
+  require_parity("humanoid:n=4,stiffness=0,height=0.3", cpu_backends(), 40);
+  Settings in_sequence;
+  in_sequence.batching = Batching::sequential;
+  require_parity(tree_crowd(3, 6, 0), cpu_backends(), 10, in_sequence);
+}
+
+TEST_CASE("parity on OpenCL: articulations")
+{
+  require_pocl();
+  require_parity(tree_crowd(4, 5, 66, sphere_shape(0.2f)), {"serial", "cl:pocl"}, 6);
+}
+
+TEST_CASE("articulations in their own place, and with every feature built, have the same bits")
+{
+  const Scene scene = tree_crowd(5, 8, 0);
+  const uint64_t expected = hash_of_trees(scene, 20, {}, {"serial", {}, false});
+  Settings whole;
+  whole.specialise = false;
+  CHECK(hash_of_trees(scene, 20, whole, {"tbb", {}, false}) == expected);
+  for (const char *exceptions : {"articulations=serial", "articulations=serial:order=backward,solve=tbb"})
+    CHECK(hash_of_trees(scene, 20, {}, Placement{"tbb", parse_placement(exceptions), false}) == expected);
+}
+
+TEST_CASE("a world with articulations goes on from its snapshot with the same bits, anywhere")
+{
+  World original(tree_crowd(6, 8, 0), watched(), {"serial", {}, false});
+  run(original, 15);
+  const std::vector<std::byte> snapshot = original.save();
+  World world(snapshot, {"tbb:threads=3,lanes=8", {}, false});
+  CHECK(world.save() == snapshot);
+  for (int k = 0; k < 15; ++k) {
+    world.step();
+    original.step();
+    REQUIRE(world.state_hash() == original.state_hash());
+  }
+  original.keep_states(8);
+  const uint64_t before = original.state_hash();
+  run(original, 3);
+  const uint64_t after = original.state_hash();
+  original.go_back(3);
+  CHECK(original.state_hash() == before);
+  run(original, 3);
+  CHECK(original.state_hash() == after);
+}
+
+TEST_CASE("parity on CPU: worlds of a batch with articulations have the bits of worlds alone")
+{
+  BatchBesideWorlds(tests::seeded_scenes("humanoid:n=2,stiffness=0,height=0.3", 4), "tbb:threads=3", {}).step(30);
+}
+
+} // namespace tandem::parity
