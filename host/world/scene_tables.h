@@ -1,5 +1,5 @@
-/* scene_tables.h - the shapes, materials, joints, couplings and articulations of the scenes of a batch, one scene after the other in
- * the scene of them all. Scenes with equal shapes and materials, such as copies of one, share these. */
+/* scene_tables.h - the shapes, materials, joints, couplings and articulations of the scenes of a batch, one scene after
+ * the other in the scene of them all. Scenes with equal shapes and materials, such as copies of one, share these. */
 #pragma once
 
 #include <cstdint>
