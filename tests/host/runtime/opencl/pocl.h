@@ -21,7 +21,7 @@ inline bool has_pocl()
 
 inline void require_pocl()
 {
-  if (!has_pocl()) tests::skip_device("no PoCL");
+  if (!has_pocl()) ::tests::skip_device("no PoCL");
 }
 
 /* For a test that also runs on other backends: it counts as not whole without PoCL. */
