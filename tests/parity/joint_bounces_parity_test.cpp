@@ -5,6 +5,7 @@
 #include "host/scene/joint_rows.h"
 #include "shared/counts.h"
 #include "shared/joints/joint_codes.h"
+#include "shared/platform.h"
 #include "tests/host/world/worlds.h"
 #include "tests/parity/joints.h"
 
@@ -34,7 +35,7 @@ void let_bounce(Joint &joint, Random &random)
 
 /* Pairs of spinning bodies with a joint of each type, to the world and between them; and a hub that has more sliders
  * than there are colours. A floor is below. */
-Scene bouncing_limits(uint64_t seed = 1, uint32_t sliders = 70)
+Scene bouncing_limits(uint64_t seed = 1, uint32_t sliders = 110)
 {
   constexpr JointType types[] = {JointType::ball,        JointType::hinge,  JointType::slider,
                                  JointType::cylindrical, JointType::plane,  JointType::parallel,

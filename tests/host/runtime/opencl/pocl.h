@@ -28,7 +28,7 @@ inline void require_pocl()
 inline void add_pocl(std::vector<std::string> &backends)
 {
   if (has_pocl()) backends.emplace_back("cl:pocl");
-  else tests::leave_out_device("no PoCL");
+  else ::tests::leave_out_device("no PoCL");
 }
 
 } // namespace tandem::parity
