@@ -107,7 +107,7 @@ SHARED joint_coordinate rotation_coordinate(joint_frames f, uint_lanes kind)
   real inverse = R(1.0) / choose(leans, across, (real)R(1.0));
   vec3 none = make_vec3(R(0.0), R(0.0), R(0.0));
   vec3 twist = twist_axis(s.x_of_b);
-  real half = R(1.0) / (R(1.0) + s.swing_w), y = s.swing_y * half, z = s.swing_z * half;
+  real share = R(1.0) / (R(1.0) + s.swing_w), y = s.swing_y * share, z = s.swing_z * share;
   joint_coordinate c = {twist_of(f.relative), none, twist};
   mask is_y = kind == (uint_lanes)(uint)JOINT_AXIS_SWING_Y, is_z = kind == (uint_lanes)(uint)JOINT_AXIS_SWING_Z,
        is_cone = kind == (uint_lanes)(uint)JOINT_AXIS_CONE;

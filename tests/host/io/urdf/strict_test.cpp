@@ -234,13 +234,13 @@ TEST_CASE("xml, strictly: references to what is no character are refused, and ot
   const auto read = [](const std::string &name) {
     return parse_scene_urdf("<robot>\n<!-- &#0; --><link name=\"" + name + "\">" + ball + "</link></robot>", urdf_path);
   };
-  for (const char *wrong : {"&#0;", "&#x0;", "&#xD800;", "&#57343;", "&#x110000;", "&#99999999999;"}) {
+  for (const char *wrong :
+       {"&#0;", "&#x0;", "&#xD800;", "&#57343;", "&#x110000;", "&#99999999999;", "&#;", "&#xq;", "&#-5;"}) {
     CAPTURE(wrong);
-    check_one_line(complaint([&] { read(std::string("a") + wrong + "b"); }), urdf_path + ": line 2: ",
-                   std::string("\"") + wrong + "\" is no character");
+    check_one_line(complaint([&] { read(std::string("a") + wrong + "b"); }),
+                   urdf_path + ": line 2: ", std::string("\"") + wrong + "\" is no character");
   }
   CHECK(read("&#x41;&#98;&#xe4;&#x10ffff;").bodies[0].name == "Ab\xc3\xa4\xf4\x8f\xbf\xbf");
-  CHECK(read("&#; &#y;").bodies[0].name == "&#; &#y;");
 }
 
 /* Each of these would take minutes or all memory if it were read to its end. */
@@ -248,9 +248,9 @@ TEST_CASE("urdf and mjcf, strictly: small files that ask for much are refused", 
 {
   std::string links = base, elements, classes, contents;
   for (int k = 0; k < 60; ++k)
-    links += urdf_link(fmt::format("l{}", k), "") +
-             urdf_joint(fmt::format("j{}", k), "continuous", k == 0 ? "base" : fmt::format("l{}", k - 1),
-                        fmt::format("l{}", k));
+    links += urdf_link(fmt::format("l{}", k), "") + urdf_joint(fmt::format("j{}", k), "continuous",
+                                                               k == 0 ? "base" : fmt::format("l{}", k - 1),
+                                                               fmt::format("l{}", k));
   links += arm + urdf_joint("last", "continuous", "l59", "arm");
   check_one_line(urdf_complaint(links), urdf_path + ": line 1: ", "has no mass, and so have those before it");
   for (int k = 0; k < 1200; ++k) {
@@ -258,8 +258,8 @@ TEST_CASE("urdf and mjcf, strictly: small files that ask for much are refused", 
     classes += fmt::format("<default class=\"c{}\"/>", k);
     contents += "<unknown/>";
   }
-  check_one_line(mjcf_complaint("<default>" + elements + classes + "</default>"), mjcf_path + ": line 1: ",
-                 "more than 1000000 attributes");
+  check_one_line(mjcf_complaint("<default>" + elements + classes + "</default>"),
+                 mjcf_path + ": line 1: ", "more than 1000000 attributes");
   check_one_line(mjcf_complaint("<worldbody><replicate count=\"9999\">" + contents + "</replicate></worldbody>"),
                  mjcf_path + ": line 1: ", "more than 1000000 elements");
 }
