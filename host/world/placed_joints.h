@@ -19,12 +19,12 @@ public:
     world.scene.joints.swap(joints_);
     try {
       order_ = JointOrder(world.scene, graph_);
+      order_.put_to_sleep([&](uint32_t joint) { return world.is_joint_asleep(joint); });
     } catch (...) {
       world.scene.joints.swap(joints_);
       throw;
     }
     exchange();
-    world.joint_order.put_to_sleep([&](uint32_t joint) { return world.is_joint_asleep(joint); });
   }
   ~PlacedJoints()
   {

@@ -432,6 +432,7 @@ TEST_CASE("heap: calls of joints that fail for want of any one allocation change
       settings.sleep_time = 0.02f;
       const Story story{joined_balls(), settings, serial, sleeping ? size_t{40} : size_t{3}, free_a_place};
       const std::unique_ptr<World> called = begun(story);
+      const uint64_t begun_hash = called->state_hash();
       call(*called);
       const std::vector<JointId> ids = called->joint_ids();
       std::vector<uint64_t> expected{called->state_hash()};
@@ -449,10 +450,12 @@ TEST_CASE("heap: calls of joints that fail for want of any one allocation change
         failures += outcome.thrown;
         if (outcome.thrown) {
           REQUIRE(world->joint_ids() == before);
+          REQUIRE(world->state_hash() == begun_hash);
           call(*world);
         }
         REQUIRE(world->joint_ids() == ids);
         for (size_t k = 0; k < expected.size(); ++k) {
+          CAPTURE(k, outcome.thrown);
           if (k > 0) world->step();
           REQUIRE(world->state_hash() == expected[k]);
         }
