@@ -56,8 +56,8 @@ uint32_t World::Implementation::joint_in_message(uint32_t joint) const
   if (!is_batch()) return joint;
   const auto world_of = [&](const Joint &one) { return some_body_of(one) / bodies_of_world(); };
   const uint32_t world = world_of(scene.joints[joint]);
-  const auto first = std::find_if(scene.joints.begin(), scene.joints.end(),
-                                  [&](const Joint &one) { return world_of(one) == world; });
+  const auto first =
+      std::find_if(scene.joints.begin(), scene.joints.end(), [&](const Joint &one) { return world_of(one) == world; });
   return joint - static_cast<uint32_t>(first - scene.joints.begin());
 }
 

@@ -1,5 +1,5 @@
-/* Limits of joints that give speed back do so with the serial backend's bits on every backend: coloured joints and those
- * past the last colour, alone and in batches, from snapshots and from states gone back to. */
+/* Limits of joints that give speed back do so with the serial backend's bits on every backend: coloured joints and
+ * those past the last colour, alone and in batches, from snapshots and from states gone back to. */
 #include "host/runtime/memory.h"
 #include "host/scene/joint_buffers.h"
 #include "host/scene/joint_rows.h"

@@ -134,8 +134,8 @@ void MjcfDefaults::read_class(const XmlElement &element, const std::string &name
       for (const auto &[key, value] : child.attributes) inherited[child.name][key] = value;
   for (const auto &[of_element, attributes] : inherited) inherited_ += attributes.size();
   if (inherited_ > most_attributes)
-    element.fail(fmt::format("the classes up to here have more than {} attributes, inherited ones included",
-                             most_attributes));
+    element.fail(
+        fmt::format("the classes up to here have more than {} attributes, inherited ones included", most_attributes));
   classes_[name] = inherited;
   for (const XmlElement *inner : element.children_named("default")) {
     const std::string inner_name = inner->needed_text("class");

@@ -29,8 +29,8 @@ public:
   MjcfDefaults() { classes_["main"]; }
   /* Fails for classes that have more than 1,000,000 attributes in all with what they inherit. */
   void read(const XmlElement &top);
-  /* The element, without its children, with the attributes of its class, or of the class of the body it is in, below its own. Fails if there
-   * is no such class. */
+  /* The element, without its children, with the attributes of its class, or of the class of the body it is in, below
+   * its own. Fails if there is no such class. */
   XmlElement completed(const XmlElement &element, const std::string &class_of_body) const;
 
 private:

@@ -49,8 +49,8 @@ TEST_CASE("joined bodies of a batch keep their types, and what is refused is nam
                     "set_properties: world 2: body 1: its type cannot change in a batch, because joint 0 holds it");
   CHECK_THROWS_WITH(set(1, 2, {.type = BodyType::kinematic}),
                     "set_properties: world 1: body 2: its type cannot change in a batch, because joint 0 holds it");
-  CHECK_THROWS_WITH(set(2, 2, {.type = BodyType::kinematic}), ContainsSubstring("world 2: body 2") &&
-                                                                  ContainsSubstring("joint 1 holds it"));
+  CHECK_THROWS_WITH(set(2, 2, {.type = BodyType::kinematic}),
+                    ContainsSubstring("world 2: body 2") && ContainsSubstring("joint 1 holds it"));
   CHECK_THROWS_WITH(set(1, 3, {.mass = -1.0f}), ContainsSubstring("set_properties: world 1: body 3: mass is -1"));
   CHECK_NOTHROW(set(2, 1, {.type = BodyType::dynamic}));
   CHECK_NOTHROW(set(1, 1, {.type = BodyType::fixed}));
