@@ -196,8 +196,9 @@ std::vector<JointId> World::Implementation::create_joints(std::span<const Joint>
     if (slot == joints.size()) joints.emplace_back();
     joints[slot] = joint;
   }
-  put_joints(std::move(joints), new_slots, created);
   std::vector<JointId> ids;
+  ids.reserve(created.size());
+  put_joints(std::move(joints), new_slots, created);
   for (const uint32_t slot : created) ids.push_back(joint_slots.id_of(slot));
   return ids;
 }
