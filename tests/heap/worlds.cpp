@@ -397,26 +397,14 @@ Joint one_more_joint(uint32_t a, uint32_t b)
   return joint;
 }
 
-/* Those that fit the tables, and those that need others. */
+/* Those that fit the tables. */
 std::vector<std::pair<const char *, Call>> calls_of_joints()
 {
   return {
       {"create in a free place", [](World &world) { world.create_joint(one_more_joint(3, 8)); }},
-      {"create",
-       [](World &world) {
-         const std::vector<Joint> three{one_more_joint(1, 5), one_more_joint(1, 7), one_more_joint(4, no_body)};
-         world.create_joints(three);
-       }},
-      {"create one that breaks",
-       [](World &world) {
-         Joint joint = one_more_joint(1, 5);
-         joint.break_force = 100;
-         world.create_joint(joint);
-       }},
       {"destroy", [](World &world) { world.destroy_joint(world.id_of_joint(4)); }},
       {"set", [](World &world) { world.set_joint(world.id_of_joint(4), one_more_joint(2, 6)); }},
       {"set axis", [](World &world) { world.set_joint_axis(world.id_of_joint(0), 3, {.friction = 2}); }},
-      {"set another axis", [](World &world) { world.set_joint_axis(world.id_of_joint(1), 4, {.friction = 2}); }},
   };
 }
 
