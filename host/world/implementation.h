@@ -230,7 +230,10 @@ struct World::Implementation {
   void refuse_idle_joints(std::span<const uint32_t> joints, std::span<const uint32_t> changed,
                           std::span<const Body> changed_bodies);
   void write_properties(std::span<const uint32_t> slots, bool weighs_anew);
+  void color_anew(std::span<const uint32_t> freed, std::span<const uint32_t> joints);
   void forget_colors(std::span<const uint32_t> freed);
+  std::vector<uint32_t> colors_without(std::span<const uint32_t> freed);
+  void put_colors(const std::vector<uint32_t> &colors);
 
   /* --- joints that sleep with their bodies: sleeping_joints.cpp -------------------------------------------------- */
   std::vector<BodyRows> joint_rows(const std::vector<bool> &touched) const;
@@ -252,12 +255,15 @@ struct World::Implementation {
   void refuse_linked(const char *call, const char *why, std::span<const uint32_t> given) const;
   bool is_in_tree(uint32_t joint) const { return joint < links.of_joint.size() && links.of_joint[joint] != no_link; }
   void refuse_joined(const char *call, const char *why, std::span<const uint32_t> given) const;
+  std::string call_in_message(const char *call, uint32_t body) const;
+  uint32_t joint_in_message(uint32_t joint) const;
 
   /* --- joints that come, change and go: joint_calls.cpp ----------------------------------------------------------- */
   class PlacedJoints;
   void refuse_coupled(const char *call, const char *why, std::span<const uint32_t> joints) const;
   void disturb_joined(std::span<const Joint> joints);
   void put_joints(std::vector<Joint> joints, const JointSlots &slots_then, std::span<const uint32_t> changed);
+  JointGraph graph_with(std::vector<Joint> &joints);
   bool fits_tables(const std::vector<Joint> &before, const JointGraph &graph) const;
   void stage_joints_again(StagedUploads &uploads, std::span<const uint32_t> order) const;
   void write_joints(const JointImpulses &impulses);
@@ -270,6 +276,7 @@ struct World::Implementation {
   void write_joint_axes(std::span<const uint32_t> changed, std::vector<Joint> joints);
   void stage_changed_axes(StagedUploads &uploads, std::span<const uint32_t> changed) const;
   void check_joined_bodies(const char *call, size_t entry, const Joint &joint) const;
+  void check_axes(const Joint &joint, uint32_t slot) const;
   std::vector<uint32_t> slots_of_joints(const char *call, std::span<const JointId> ids) const;
   void take_broken_joints();
 

@@ -109,14 +109,17 @@ void World::Implementation::disturb_joined(std::span<const Joint> joints)
     memory.upload(Buffer::resting_steps, &none, sizeof none, index_of_body[body] * sizeof none);
 }
 
-/* Makes the joints of the scene these, some of which differ from what they were. */
+/* Makes the joints of the scene these, some of which differ from what they were. What may lack memory comes before the
+ * first change: contacts that kept a colour which a joint has now would be solved beside it. */
 void World::Implementation::put_joints(std::vector<Joint> joints, const JointSlots &slots_then,
                                        std::span<const uint32_t> changed)
 {
   if (is_batch())
-    throw InputError(
-        "set_joint_axes: an axis of a joint would come or go, which a batch of worlds has no room for; in a "
-        "batch, axes that are limited, driven or braked stay so, and others do not become so");
+    throw InputError(fmt::format("{}: joint {}: an axis would come or go, or begin to bounce, which a batch of worlds "
+                                 "has no room for; in a batch, axes that are limited, driven or braked stay so, and "
+                                 "others do not become so",
+                                 call_in_message("set_joint_axes", some_body_of(scene.joints[changed.front()])),
+                                 joint_in_message(changed.front())));
   settle();
   std::vector<Joint> disturbed;
   for (const uint32_t joint : changed) {
@@ -129,7 +132,12 @@ void World::Implementation::put_joints(std::vector<Joint> joints, const JointSlo
   for (const uint32_t joint : changed)
     if (joint >= scene.joints.size() || !keeps_impulses(scene.joints[joint], joints[joint])) impulses.forget(joint);
   JointSlots new_slots = slots_then;
-  PlacedJoints placed(*this, std::move(joints));
+  JointGraph graph = graph_with(joints);
+  const std::vector<uint32_t> recolored = bodies_with_new_colors(joint_graph, graph);
+  wake_bodies(recolored, false);
+  const std::vector<uint32_t> contact_colors = colors_without(recolored);
+  std::string reason = "joints came that the buffers had no room or no tables for";
+  PlacedJoints placed(*this, std::move(joints), std::move(graph));
   check_built(features_of(scene, settings), scene, settings, scene.name);
   check_joints(settings, scene);
   const bool fits = fits_tables(placed.joints_before(), placed.graph_before());
@@ -139,10 +147,22 @@ void World::Implementation::put_joints(std::vector<Joint> joints, const JointSlo
   joint_slots = std::move(new_slots);
   joints_number = ++joints_numbers;
   if (!sleepers.empty()) set_of_sleepers = ++sets_of_sleepers; /* their joints may have other places */
-  if (!fits) ring.forget("joints came that the buffers had no room or no tables for");
-  const std::vector<uint32_t> recolored = bodies_with_new_colors(placed.graph_before(), joint_graph);
-  wake_bodies(recolored, false);
-  forget_colors(recolored);
+  if (!fits) ring.forget(std::move(reason));
+  put_colors(contact_colors);
+}
+
+/* Of the scene, if it had these joints. */
+JointGraph World::Implementation::graph_with(std::vector<Joint> &joints)
+{
+  scene.joints.swap(joints);
+  try {
+    JointGraph graph = joint_graph_of(scene);
+    scene.joints.swap(joints);
+    return graph;
+  } catch (...) {
+    scene.joints.swap(joints);
+    throw;
+  }
 }
 
 /* Whether tables of joints alone tell kernels of the present joints, after those given. */
@@ -195,8 +215,9 @@ std::vector<JointId> World::Implementation::create_joints(std::span<const Joint>
     if (slot == joints.size()) joints.emplace_back();
     joints[slot] = joint;
   }
-  put_joints(std::move(joints), new_slots, created);
   std::vector<JointId> ids;
+  ids.reserve(created.size());
+  put_joints(std::move(joints), new_slots, created);
   for (const uint32_t slot : created) ids.push_back(joint_slots.id_of(slot));
   return ids;
 }
@@ -295,6 +316,18 @@ JointAxis &axis_of(Joint &joint, uint32_t axis)
 
 } // namespace
 
+/* Messages of a batch name the world, which is found only where one is needed. */
+void World::Implementation::check_axes(const Joint &joint, uint32_t slot) const
+{
+  try {
+    validate(scene, joint, slot, "set_joint_axes");
+  } catch (const InputError &) {
+    if (is_batch())
+      validate(scene, joint, joint_in_message(slot), call_in_message("set_joint_axes", some_body_of(joint)));
+    throw;
+  }
+}
+
 void World::Implementation::set_joint_axes(std::span<const JointId> ids, std::span<const JointAxisChange> changes)
 {
   if (ids.size() != changes.size())
@@ -311,7 +344,7 @@ void World::Implementation::set_joint_axes(std::span<const JointId> ids, std::sp
     const auto [at, is_new] = of_slot.try_emplace(changed[i], joints.size());
     if (is_new) joints.push_back(scene.joints[changed[i]]);
     axis_of(joints[at->second], changes[i].axis) = changes[i].to;
-    validate(scene, joints[at->second], changed[i], "set_joint_axes");
+    check_axes(joints[at->second], changed[i]);
   }
   if (ids.empty()) return;
   for (const auto &[slot, k] : of_slot)

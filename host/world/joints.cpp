@@ -1,4 +1,5 @@
 /* joints.cpp - the joints of a world: their tables, and what a world with joints refuses. */
+#include <algorithm>
 #include <vector>
 
 #include <fmt/format.h>
@@ -41,7 +42,25 @@ void World::Implementation::refuse_joined(const char *call, const char *why, std
   for (size_t k = 0; k < scene.joints.size(); ++k)
     for (const uint32_t body : {scene.joints[k].body_a, scene.joints[k].body_b})
       if (body != no_body && is_given[body])
-        throw InputError(fmt::format("{}: body {}: {}, because joint {} holds it", call, body, why, k));
+        throw InputError(fmt::format("{}: body {}: {}, because joint {} holds it", call_in_message(call, body),
+                                     is_batch() ? body % bodies_of_world() : body, why, joint_in_message(k)));
+}
+
+/* The call, and of a batch the world of the body. */
+std::string World::Implementation::call_in_message(const char *call, uint32_t body) const
+{
+  return is_batch() ? fmt::format("{}: world {}", call, body / bodies_of_world()) : call;
+}
+
+/* The number of a joint, of a batch that in its world. */
+uint32_t World::Implementation::joint_in_message(uint32_t joint) const
+{
+  if (!is_batch()) return joint;
+  const auto world_of = [&](const Joint &one) { return some_body_of(one) / bodies_of_world(); };
+  const uint32_t world = world_of(scene.joints[joint]);
+  const auto first =
+      std::find_if(scene.joints.begin(), scene.joints.end(), [&](const Joint &one) { return world_of(one) == world; });
+  return joint - static_cast<uint32_t>(first - scene.joints.begin());
 }
 
 } // namespace tandem

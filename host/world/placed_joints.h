@@ -12,18 +12,19 @@ namespace tandem {
 /* The joints of a world, in place of others unless they are kept. */
 class World::Implementation::PlacedJoints {
 public:
-  PlacedJoints(Implementation &world, std::vector<Joint> joints) : world_(world), joints_(std::move(joints))
+  /* graph: that of the joints. */
+  PlacedJoints(Implementation &world, std::vector<Joint> joints, JointGraph graph)
+      : world_(world), joints_(std::move(joints)), graph_(std::move(graph))
   {
     world.scene.joints.swap(joints_);
     try {
-      graph_ = joint_graph_of(world.scene);
       order_ = JointOrder(world.scene, graph_);
+      order_.put_to_sleep([&](uint32_t joint) { return world.is_joint_asleep(joint); });
     } catch (...) {
       world.scene.joints.swap(joints_);
       throw;
     }
     exchange();
-    world.joint_order.put_to_sleep([&](uint32_t joint) { return world.is_joint_asleep(joint); });
   }
   ~PlacedJoints()
   {

@@ -57,16 +57,30 @@ struct ChangedBodies {
   std::vector<Body> bodies;
 };
 
+/* of_world: the bodies of each world of a batch, whose messages name the world; 0: it is none. */
+void check_changed(const Scene &scene, const Settings &settings, const Body &body, uint32_t slot, uint32_t of_world)
+{
+  const auto check = [&](uint32_t number, const std::string &where) {
+    validate(scene, body, number, where);
+    check_solver(settings, body, number, where);
+  };
+  try {
+    check(slot, "set_properties");
+  } catch (const InputError &) {
+    if (of_world > 0) check(slot % of_world, fmt::format("set_properties: world {}", slot / of_world));
+    throw;
+  }
+}
+
 /* Several entries for one body are taken in their order. */
 ChangedBodies changed_by(const Scene &scene, const Settings &settings, std::span<const uint32_t> slots,
-                         std::span<const BodyProperties> properties)
+                         std::span<const BodyProperties> properties, uint32_t of_world)
 {
   std::map<uint32_t, Body> changed;
   for (size_t i = 0; i < slots.size(); ++i) {
     Body &body = changed.try_emplace(slots[i], scene.bodies[slots[i]]).first->second;
     change(body, properties[i]);
-    validate(scene, body, slots[i], "set_properties");
-    check_solver(settings, body, slots[i], "set_properties");
+    check_changed(scene, settings, body, slots[i], of_world);
   }
   ChangedBodies result;
   for (auto &[slot, body] : changed) {
@@ -134,7 +148,7 @@ void World::Implementation::set_properties(std::span<const BodyId> ids, std::spa
                                  ids.size(), properties.size()));
   std::vector<uint32_t> given;
   for (const BodyId &id : ids) given.push_back(slots.slot_of("set_properties", id));
-  const ChangedBodies changed = changed_by(scene, settings, given, properties);
+  const ChangedBodies changed = changed_by(scene, settings, given, properties, is_batch() ? bodies_of_world() : 0);
   if (is_batch()) refuse_joined("set_properties", "its type cannot change in a batch", retyped_by(scene, changed));
   const std::vector<uint32_t> retyped = joints_of_bodies(retyped_by(scene, changed));
   refuse_coupled("set_properties", "the type of its bodies cannot change", retyped);
@@ -158,9 +172,7 @@ void World::Implementation::set_properties(std::span<const BodyId> ids, std::spa
   }
   placed.keep();
   ring.forget("properties of bodies were changed");
-  forget_colors(freed);
-  if (!retyped.empty()) put_joints(scene.joints, joint_slots, retyped); /* bodies that move have other colours */
-  if (settings.sleeping) recount_motion();
+  color_anew(freed, retyped);
   for (const uint32_t slot : changed.slots)
     if (slots.status()[slot] != BodyStatus::quarantined)
       commands.add(slot, COMMAND_SET_MASS, mass_command_of(scene.bodies[slot]));
@@ -178,6 +190,22 @@ void World::Implementation::refuse_for_links(std::span<const uint32_t> changed, 
   }
   const PlacedBodies tried(scene, changed, changed_bodies);
   check_articulations(scene, "set_properties");
+}
+
+/* Bodies have other types, so their contacts and joints get other colours. The types stand already: without the colours
+ * two constraints of one colour would push one body. */
+void World::Implementation::color_anew(std::span<const uint32_t> freed, std::span<const uint32_t> joints)
+{
+  try {
+    forget_colors(freed);
+    if (!joints.empty()) put_joints(scene.joints, joint_slots, joints);
+    if (settings.sleeping) recount_motion();
+  } catch (const std::exception &error) {
+    lost = fmt::format("set_properties: what bodies of other types touch and hold could not be coloured anew ({}); the "
+                       "world cannot go on, and restore() makes it what it was when it was saved",
+                       error.what());
+    throw;
+  }
 }
 
 /* A joint needs a dynamic body. */
@@ -204,9 +232,12 @@ void World::Implementation::refuse_unbuilt(std::span<const uint32_t> changed, st
 }
 
 /* Contacts of a body that cannot be pushed may share a colour, which they must not keep when it can be. */
-void World::Implementation::forget_colors(std::span<const uint32_t> freed)
+void World::Implementation::forget_colors(std::span<const uint32_t> freed) { put_colors(colors_without(freed)); }
+
+/* The colours of all contacts, of which those of these bodies have none; empty: they stay. */
+std::vector<uint32_t> World::Implementation::colors_without(std::span<const uint32_t> freed)
 {
-  if (freed.empty()) return;
+  if (freed.empty()) return {};
   std::vector<bool> is_freed(special.awake);
   for (const uint32_t slot : freed)
     if (index_of_body[slot] < special.awake) is_freed[index_of_body[slot]] = true;
@@ -219,7 +250,12 @@ void World::Implementation::forget_colors(std::span<const uint32_t> freed)
   for (uint32_t body = 0; body < special.awake; ++body)
     for (uint32_t pair = starts[body]; pair < starts[body + 1]; ++pair)
       if (touches(body, pair) && colors[pair] < COLOR_NONE) colors[pair] = COLOR_NONE;
-  memory.upload(Buffer::cached_color, colors.data(), colors.size() * sizeof(uint32_t));
+  return colors;
+}
+
+void World::Implementation::put_colors(const std::vector<uint32_t> &colors)
+{
+  if (!colors.empty()) memory.upload(Buffer::cached_color, colors.data(), colors.size() * sizeof(uint32_t));
 }
 
 /* weighs_anew: whether some have another mass or other moments, from which it follows how much of each error their

@@ -344,7 +344,9 @@ void World::Implementation::go_back(uint32_t states)
   try {
     if (then.joints && then.joints->number != joints_number) {
       joint_slots_then = then.joints->slots;
-      joints_then.emplace(*this, then.joints->joints);
+      std::vector<Joint> joints = then.joints->joints;
+      JointGraph graph = graph_with(joints);
+      joints_then.emplace(*this, std::move(joints), std::move(graph));
       if (others_sleep) joint_order.take(sleepers_then->joints, sleepers_then->awake_joints);
       stage_joints_again(uploads, others_sleep ? sleepers_then->order : special.order);
     }

@@ -63,6 +63,21 @@ SHARED vec3 twist_axis(vec3 x_of_b)
   return make_vec3(R(1.0), x_of_b.y / along, x_of_b.z / along);
 }
 
+/* How the two angles of the swing change, by p = (0, y, z), which is tan(angle / 4) of the swing along its axis: the
+ * angles are 4 arc_tangent(y) and 4 arc_tangent(z). Where both are there, each changes as the body turns about all
+ * three axes. twist: the axis of the twist, which takes its part away from the swing. */
+SHARED vec3 swing_y_axis(real y, real z, vec3 twist)
+{
+  vec3 axis = make_vec3(R(-4.0) * z, R(1.0) + y * y - z * z - R(2.0) * z * twist.y, R(2.0) * z * (y - twist.z));
+  return scale(axis, R(1.0) / (R(1.0) + y * y));
+}
+
+SHARED vec3 swing_z_axis(real y, real z, vec3 twist)
+{
+  vec3 axis = make_vec3(R(4.0) * y, R(2.0) * y * (z + twist.y), R(1.0) + z * z - y * y + R(2.0) * y * twist.z);
+  return scale(axis, R(1.0) / (R(1.0) + z * z));
+}
+
 SHARED joint_coordinate direction_coordinate(joint j, joint_frames f, uint_lanes kind)
 {
   vec3 none = make_vec3(R(0.0), R(0.0), R(0.0));
@@ -91,14 +106,16 @@ SHARED joint_coordinate rotation_coordinate(joint_frames f, uint_lanes kind)
   mask leans = across > LEAST_SWING;
   real inverse = R(1.0) / choose(leans, across, (real)R(1.0));
   vec3 none = make_vec3(R(0.0), R(0.0), R(0.0));
-  joint_coordinate c = {twist_of(f.relative), none, twist_axis(s.x_of_b)};
+  vec3 twist = twist_axis(s.x_of_b);
+  real share = R(1.0) / (R(1.0) + s.swing_w), y = s.swing_y * share, z = s.swing_z * share;
+  joint_coordinate c = {twist_of(f.relative), none, twist};
   mask is_y = kind == (uint_lanes)(uint)JOINT_AXIS_SWING_Y, is_z = kind == (uint_lanes)(uint)JOINT_AXIS_SWING_Z,
        is_cone = kind == (uint_lanes)(uint)JOINT_AXIS_CONE;
   c.value = choose(is_y, R(4.0) * arc_tangent(s.swing_y, R(1.0) + s.swing_w), c.value);
   c.value = choose(is_z, R(4.0) * arc_tangent(s.swing_z, R(1.0) + s.swing_w), c.value);
   c.value = choose(is_cone, R(2.0) * arc_tangent(across, s.swing_w), c.value);
-  c.turn = choose3(is_y, make_vec3(R(0.0), R(1.0), R(0.0)), c.turn);
-  c.turn = choose3(is_z, make_vec3(R(0.0), R(0.0), R(1.0)), c.turn);
+  c.turn = choose3(is_y, swing_y_axis(y, z, twist), c.turn);
+  c.turn = choose3(is_z, swing_z_axis(y, z, twist), c.turn);
   c.turn = choose3(
       is_cone,
       choose3(leans, make_vec3(R(0.0), s.swing_y * inverse, s.swing_z * inverse), make_vec3(R(0.0), R(1.0), R(0.0))),

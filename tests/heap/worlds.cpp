@@ -357,3 +357,98 @@ TEST_CASE("heap: work in parallel is done by fewer threads where there is no mem
       if (!outcome.struck) return;
     }
 }
+
+namespace {
+
+/* A net of balls, half of which hangs on the world, and a floor. Some joints have axes, some can break, and one place
+ * is free. */
+Scene joined_balls()
+{
+  Scene scene;
+  scene.name = "joined balls";
+  scene.shapes = {half_space_shape(), sphere_shape(0.3f)};
+  scene.bodies.resize(9);
+  scene.bodies[0].type = BodyType::fixed;
+  for (size_t i = 1; i < scene.bodies.size(); ++i) {
+    scene.bodies[i].shape = 1;
+    scene.bodies[i].position = {0.55 * static_cast<double>(i % 4), 0.3 + 0.59 * static_cast<double>(i / 4), 0};
+  }
+  for (uint32_t i = 2; i < scene.bodies.size(); ++i) {
+    Joint joint;
+    joint.type = i % 2 ? JointType::ball : JointType::hinge;
+    joint.body_a = i % 3 ? i - 1 : no_body;
+    joint.body_b = i;
+    for (size_t k = 0; k < 3; ++k)
+      joint.position_a[k] =
+          scene.bodies[i].position[k] - (joint.body_a == no_body ? 0 : scene.bodies[joint.body_a].position[k]);
+    if (i % 2 == 0) joint.rotations[0] = {.lower = -0.5f, .upper = 0.5f, .friction = 0.1f};
+    scene.joints.push_back(joint);
+  }
+  return scene;
+}
+
+Joint one_more_joint(uint32_t a, uint32_t b)
+{
+  Joint joint;
+  joint.body_a = a;
+  joint.body_b = b;
+  joint.position_a = {0.3, 0, 0};
+  joint.position_b = {-0.3, 0, 0};
+  return joint;
+}
+
+/* Those that fit the tables. */
+std::vector<std::pair<const char *, Call>> calls_of_joints()
+{
+  return {
+      {"create in a free place", [](World &world) { world.create_joint(one_more_joint(3, 8)); }},
+      {"destroy", [](World &world) { world.destroy_joint(world.id_of_joint(4)); }},
+      {"set", [](World &world) { world.set_joint(world.id_of_joint(4), one_more_joint(2, 6)); }},
+      {"set axis", [](World &world) { world.set_joint_axis(world.id_of_joint(0), 3, {.friction = 2}); }},
+  };
+}
+
+} // namespace
+
+TEST_CASE("heap: calls of joints that fail for want of any one allocation change nothing, and can be made again")
+{
+  const auto free_a_place = [](World &world) { world.destroy_joint(world.id_of_joint(3)); };
+  Settings settings = short_step(with(Solver::soft_step, Broadphase::grid, true));
+  for (const bool sleeping : {false, true})
+    for (const auto &[name, call] : calls_of_joints()) {
+      settings.sleeping = sleeping;
+      settings.sleep_time = 0.02f;
+      const Story story{joined_balls(), settings, serial, sleeping ? size_t{40} : size_t{3}, free_a_place};
+      const std::unique_ptr<World> called = begun(story);
+      const uint64_t begun_hash = called->state_hash();
+      call(*called);
+      const std::vector<JointId> ids = called->joint_ids();
+      std::vector<uint64_t> expected{called->state_hash()};
+      for (int k = 0; k < 4; ++k) {
+        called->step();
+        expected.push_back(called->state_hash());
+      }
+      uint64_t failures = 0;
+      for (uint64_t nth = 0;; nth += tests::share_of_faults(1)) {
+        CAPTURE(name, nth, sleeping);
+        const std::unique_ptr<World> world = begun(story);
+        const std::vector<JointId> before = world->joint_ids();
+        const Outcome outcome = attempt(nth, true, [&] { call(*world); });
+        check_told(outcome);
+        failures += outcome.thrown;
+        if (outcome.thrown) {
+          REQUIRE(world->joint_ids() == before);
+          REQUIRE(world->state_hash() == begun_hash);
+          call(*world);
+        }
+        REQUIRE(world->joint_ids() == ids);
+        for (size_t k = 0; k < expected.size(); ++k) {
+          CAPTURE(k, outcome.thrown);
+          if (k > 0) world->step();
+          REQUIRE(world->state_hash() == expected[k]);
+        }
+        if (!outcome.struck) break;
+      }
+      CHECK(failures > 0);
+    }
+}

@@ -34,11 +34,20 @@ Scene with_spheres_alone(Scene scene)
   return scene;
 }
 
-/* The same number of bodies, with other couplings. */
+/* The same number of bodies, with other couplings, of which some belong to joints that are not enabled. */
 std::vector<Scene> coupled_worlds()
 {
   std::vector<Scene> scenes;
-  for (int k = 0; k < 4; ++k) scenes.push_back(coupling_crowd(1));
+  for (int k = 0; k < 5; ++k) scenes.push_back(coupling_crowd(1));
+  for (size_t k = 0; k < scenes[4].joints.size(); k += 4) scenes[4].joints[k].enabled = false;
+  scenes[4].joints[0].enabled = true; /* the wheel with more couplings than there are colours */
+  for (size_t k = 0, count = scenes[4].couplings.size(); k < count; ++k) {
+    Coupling turned = scenes[4].couplings[k];
+    if (turned.type != CouplingType::gear || turned.joint_b == 0) continue;
+    std::swap(turned.joint_a, turned.joint_b);
+    std::swap(turned.teeth_a, turned.teeth_b);
+    scenes[4].couplings.push_back(turned);
+  }
   scenes[1].couplings.clear();
   scenes[2].couplings.resize(20);
   std::reverse(scenes[3].couplings.begin(), scenes[3].couplings.end());

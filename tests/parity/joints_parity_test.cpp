@@ -120,7 +120,7 @@ TEST_CASE("joints in their own place, and with every feature built, have the sam
   CHECK(placed("serial", "joints=tbb:threads=3") == expected);
   CHECK(placed("serial", "joints=serial:order=backward,solve=tbb") == expected);
   if (has_pocl()) CHECK(placed("tbb", "joints=cl:pocl,solve=serial") == expected);
-  else tests::leave_out_device("no PoCL");
+  else ::tests::leave_out_device("no PoCL");
 }
 
 TEST_CASE("joined bodies are in no list of pairs, and every broadphase finds the same pairs beside them")

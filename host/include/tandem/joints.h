@@ -100,7 +100,8 @@ struct JointBreak {
   float force = 0, torque = 0; /* N, N m */
 };
 
-/* What a joint does, as the last step left it. A joint that is not enabled, or has never been in a step, reads 0. */
+/* What a joint does, as the last step left it. A joint that is not enabled reads 0; one that has never been in a step
+ * has no force and no torque. */
 struct JointReading {
   /* Of its impulses in the last substep, on body b at the origin of frame b, in axes of the world; body a gets the
    * opposite. The torque is about that origin. Held axes, limits, springs, motors and friction are in them. NaN of a

@@ -12,12 +12,15 @@ namespace tandem {
 namespace {
 
 constexpr double share_of_mass = 0.1; /* of a body that stands between two joints of a link, in the link's */
+constexpr size_t most_of_frame = 6;   /* the axes of one frame */
+constexpr size_t most_parts = 6;      /* joints of a link, each with the axes of a frame */
 
 /* Links that move as one. The first of them has the joints. */
 struct LinkGroup {
   size_t base = Link::world;
   std::vector<size_t> members;
   size_t parent = Link::world;        /* index of another group */
+  std::vector<size_t> children;       /* the groups whose parent it is */
   std::vector<LinkJoint> joints;      /* places and axes in the world */
   std::vector<MassProperties> masses; /* in the frame of the base */
   bool gone = false;                  /* it had no mass */
@@ -74,6 +77,7 @@ void RobotBuilder::begin_group(size_t index)
   LinkGroup &group = groups_.emplace_back();
   group.base = index;
   group.parent = link.parent == Link::world ? Link::world : group_of_[link.parent];
+  if (group.parent != Link::world) groups_[group.parent].children.push_back(groups_.size() - 1);
   for (LinkJoint joint : link.joints) {
     joint.at = places_[index] * joint.at;
     joint.axis = turn(places_[index].rotation, joint.axis);
@@ -106,10 +110,11 @@ void RobotBuilder::group_links()
 void RobotBuilder::pass_joints_on(size_t massless)
 {
   LinkGroup &group = groups_[massless];
-  std::vector<size_t> children;
-  for (size_t k = massless + 1; k < groups_.size(); ++k)
-    if (groups_[k].parent == massless) children.push_back(k);
+  const std::vector<size_t> &children = group.children;
   const Link &link = base_of(group);
+  if (group.joints.size() > most_parts * most_of_frame)
+    refuse(link, fmt::format("has no mass, and so have those before it, which have {} joints; give them a mass",
+                             group.joints.size()));
   if (children.size() > 1)
     refuse(link, fmt::format("has no mass and {} links that move on it; give it a mass", children.size()));
   if (link.floats && !children.empty()) refuse(link, "floats and has no mass; give it one");
@@ -120,7 +125,7 @@ void RobotBuilder::pass_joints_on(size_t massless)
   if (children.empty()) return notes_.add(link.line, "a link without mass at the end of the tree is left out");
   LinkGroup &child = groups_[children.front()];
   child.joints.insert(child.joints.begin(), group.joints.begin(), group.joints.end());
-  child.parent = group.parent;
+  child.parent = group.parent; /* whose list of children knows the one that is gone alone */
 }
 
 void RobotBuilder::add_fixed_bodies()
@@ -296,15 +301,15 @@ void RobotBuilder::add_joints(const LinkGroup &group)
   const double reach = std::sqrt(double{largest} / double{link.mass}); /* the radius of gyration */
   std::vector<std::pair<GroupedJoint, std::span<const LinkJoint>>> parts;
   for (std::span<const LinkJoint> rest = group.joints; !rest.empty(); rest = rest.subspan(parts.back().second.size()))
-    for (size_t count = rest.size(); count > 0; --count)
+    for (size_t count = std::min(rest.size(), most_of_frame); count > 0; --count)
       if (const auto grouped = group_joints(rest.first(count), reach)) {
         parts.emplace_back(*grouped, rest.first(count));
         note_grouping(group, *grouped, rest.first(count));
         break;
       }
   const uint32_t parent = body_of(group.parent);
-  const size_t between = std::min<size_t>(parts.size() - 1, 5);
-  if (parts.size() - 1 > between) refuse(base_of(group), "has more than six joints whose axes are not at right angles");
+  const size_t between = parts.size() - 1;
+  if (parts.size() > most_parts) refuse(base_of(group), "has more than six joints whose axes are not at right angles");
   const double kept = 1 - share_of_mass * double(between);
   Body &body = scene_.bodies[group.body];
   body.mass = round_to_float(kept * double{body.mass});

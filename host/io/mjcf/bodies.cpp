@@ -8,7 +8,7 @@
 namespace tandem {
 namespace {
 
-constexpr size_t most_elements = 100'000;
+constexpr size_t most_elements = 100'000, most_visits = 1'000'000;
 
 } // namespace
 
@@ -16,6 +16,14 @@ void MjcfBodies::count(const XmlElement &element)
 {
   if (++elements_ > most_elements)
     element.fail(fmt::format("more than {} bodies, geoms and frames up to here, replicas included", most_elements));
+}
+
+/* Elements of other kinds are few in a robot, but replicas may read each of them again and again. */
+void MjcfBodies::count_visits(const XmlElement &element)
+{
+  visits_ += element.children.size();
+  if (visits_ > most_visits)
+    element.fail(fmt::format("more than {} elements up to here, replicas included", most_visits));
 }
 
 void MjcfBodies::read_frame(const XmlElement &frame, const Place &at)
@@ -127,6 +135,7 @@ void MjcfBodies::read_body(const XmlElement &body, const Place &at)
 void MjcfBodies::read_children(const XmlElement &element, const Place &at)
 {
   constexpr const char *known[] = {"body", "frame", "replicate", "geom", "joint", "freejoint", "inertial"};
+  count_visits(element);
   notes_.add_other_children(element, known);
   for (const XmlElement &child : element.children) {
     if (child.name == "joint" || child.name == "freejoint") read_joint(child, at);

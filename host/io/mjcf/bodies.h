@@ -17,7 +17,7 @@ public:
       : compiler_(compiler), defaults_(defaults), geoms_(geoms), notes_(notes)
   {}
   /* Fails, with the element, for a name that stands twice, for a joint of the world, for a free joint of an inner body,
-   * and for more than 100,000 bodies and geoms. */
+   * and for more than 100,000 bodies and geoms or 1,000,000 elements in all, replicas included. */
   void read(const XmlElement &world);
   /* The link of a body; Link::world for "world". */
   size_t link_of(const XmlElement &element, const char *key) const;
@@ -43,6 +43,7 @@ private:
   void read_geom(const XmlElement &geom, const Place &at);
   void read_inertial(const XmlElement &inertial, const Place &at);
   void count(const XmlElement &element);
+  void count_visits(const XmlElement &element);
 
   const MjcfCompiler &compiler_;
   const MjcfDefaults &defaults_;
@@ -53,7 +54,7 @@ private:
   std::vector<std::vector<MassProperties>> masses_; /* of the geoms of each link */
   std::vector<std::optional<MassProperties>> inertials_;
   std::vector<std::vector<MjcfContact>> contacts_; /* of the shapes of each link */
-  size_t elements_ = 0;
+  size_t elements_ = 0, visits_ = 0;
 };
 
 } // namespace tandem

@@ -9,6 +9,7 @@
 namespace tandem {
 namespace {
 
+constexpr size_t most_attributes = 1'000'000; /* of all classes, with what they inherit */
 constexpr const char *turns[] = {"quat", "axisangle", "euler", "xyaxes", "zaxis"};
 
 /* One of the words, by its place among them. */
@@ -131,6 +132,10 @@ void MjcfDefaults::read_class(const XmlElement &element, const std::string &name
   for (const XmlElement &child : element.children)
     if (child.name != "default")
       for (const auto &[key, value] : child.attributes) inherited[child.name][key] = value;
+  for (const auto &[of_element, attributes] : inherited) inherited_ += attributes.size();
+  if (inherited_ > most_attributes)
+    element.fail(
+        fmt::format("the classes up to here have more than {} attributes, inherited ones included", most_attributes));
   classes_[name] = inherited;
   for (const XmlElement *inner : element.children_named("default")) {
     const std::string inner_name = inner->needed_text("class");
@@ -145,7 +150,11 @@ XmlElement MjcfDefaults::completed(const XmlElement &element, const std::string 
   const std::string name = element.text("class").value_or(class_of_body.empty() ? "main" : class_of_body);
   const auto found = classes_.find(name);
   if (found == classes_.end()) element.fail(fmt::format("class \"{}\" does not exist in this file", name));
-  XmlElement result = element;
+  XmlElement result;
+  result.name = element.name;
+  result.file = element.file;
+  result.line = element.line;
+  result.attributes = element.attributes;
   const auto added = found->second.find(element.name);
   if (added == found->second.end()) return result;
   const bool is_turned = std::any_of(element.attributes.begin(), element.attributes.end(),

@@ -27,9 +27,10 @@ struct MjcfCompiler {
 class MjcfDefaults {
 public:
   MjcfDefaults() { classes_["main"]; }
+  /* Fails for classes that have more than 1,000,000 attributes in all with what they inherit. */
   void read(const XmlElement &top);
-  /* The element with the attributes of its class, or of the class of the body it is in, below its own. Fails if there
-   * is no such class. */
+  /* The element, without its children, with the attributes of its class, or of the class of the body it is in, below
+   * its own. Fails if there is no such class. */
   XmlElement completed(const XmlElement &element, const std::string &class_of_body) const;
 
 private:
@@ -37,6 +38,7 @@ private:
   using Class = std::map<std::string, Attributes>; /* by the name of the element */
   void read_class(const XmlElement &element, const std::string &name, Class inherited);
   std::map<std::string, Class> classes_;
+  size_t inherited_ = 0; /* attributes of all classes */
 };
 
 } // namespace tandem

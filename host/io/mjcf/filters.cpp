@@ -39,7 +39,8 @@ std::vector<MjcfFilter> mjcf_filters(const std::vector<MjcfContact> &geoms, cons
   const std::vector<Combination> all = combinations_of(geoms, excluded);
   std::vector<Combination> distinct;
   for (const Combination &one : all)
-    if (std::find(distinct.begin(), distinct.end(), one) == distinct.end()) distinct.push_back(one);
+    if (distinct.size() <= most_groups && std::find(distinct.begin(), distinct.end(), one) == distinct.end())
+      distinct.push_back(one);
   if (distinct.size() > most_groups && excluded.empty())
     root.fail("more than 32 combinations of contype and conaffinity; a scene has 32 groups");
   if (distinct.size() > most_groups) {

@@ -41,10 +41,30 @@ bool is_character(const std::string &text, size_t at, size_t length)
   return byte(0) != 0xf4 || byte(1) < 0x90;
 }
 
+/* Whether "&#" begins there what is no character of XML: no number, or 0, both of which would end a text early, or a
+ * surrogate or a number beyond Unicode, of which no writer of JSON makes a text. */
+bool is_wrong_reference(const std::string &text, size_t at)
+{
+  if (text.compare(at, 2, "&#") != 0) return false;
+  const bool is_hexadecimal = text.compare(at, 3, "&#x") == 0;
+  const char *first = text.data() + at + (is_hexadecimal ? 3 : 2);
+  uint32_t code = 0;
+  const auto [end, error] = std::from_chars(first, text.data() + text.size(), code, is_hexadecimal ? 16 : 10);
+  return error != std::errc() || end == text.data() + text.size() || *end != ';' || code == 0 ||
+         (code >= 0xd800 && code < 0xe000) || code > 0x10ffff;
+}
+
 void require_text(const std::string &text, const std::string &where)
 {
   int line = 1;
+  bool in_comment = false;
   for (size_t at = 0; at < text.size();) {
+    if (text.compare(at, 4, "<!--") == 0) in_comment = true;
+    if (text.compare(at, 3, "-->") == 0) in_comment = false;
+    if (!in_comment && is_wrong_reference(text, at))
+      refuse_xml(
+          where, line,
+          fmt::format("\"{}\" is no character", text.substr(at, std::min<size_t>(text.find(';', at) - at + 1, 20))));
     const size_t length = length_by(static_cast<unsigned char>(text[at]));
     if (text[at] == '\0') refuse_xml(where, line, "a byte of 0; XML is text");
     if (!is_character(text, at, length)) refuse_xml(where, line, "no UTF-8; write the file in that encoding");

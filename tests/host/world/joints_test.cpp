@@ -1,4 +1,6 @@
 /* What a world with joints refuses, by name, and leaves as it was. */
+#include <tandem/worlds.h>
+
 #include "tests/catch.h"
 #include "tests/physics/joints.h"
 
@@ -31,21 +33,43 @@ TEST_CASE("solvers without joints refuse them by name")
   }
 }
 
-TEST_CASE("joined bodies are not destroyed and keep their types, and others may")
+TEST_CASE("joined bodies of a batch keep their types, and what is refused is named by the numbers of its world")
 {
-  World world(two_joined_and_one_free(), {}, {"serial", {}});
-  for (const uint32_t body : {0u, 1u, 2u}) {
-    const uint64_t before = world.state_hash();
-    CHECK_THROWS_WITH(world.destroy_body(world.id_of(body)),
-                      ContainsSubstring("body " + std::to_string(body)) && ContainsSubstring("joint"));
-    CHECK_THROWS_WITH(world.set_type(world.id_of(body), BodyType::fixed), ContainsSubstring("its type cannot change"));
-    CHECK_NOTHROW(world.set_type(world.id_of(body), BodyType::dynamic));
-    CHECK(world.exists(world.id_of(body)));
-    CHECK(world.state_hash() == before);
-  }
-  CHECK_NOTHROW(world.set_type(world.id_of(3), BodyType::kinematic));
-  CHECK_NOTHROW(world.destroy_body(world.id_of(3)));
-  CHECK_NOTHROW(world.step());
+  const Scene free = [] {
+    Scene scene = two_joined_and_one_free();
+    scene.joints.erase(scene.joints.begin());
+    return scene;
+  }();
+  Worlds batch(std::vector<Scene>{two_joined_and_one_free(), free, two_joined_and_one_free()}, {}, {"serial", {}});
+  const auto set = [&](uint32_t world, uint32_t body, const BodyProperties &properties) {
+    batch.set_properties(std::vector<WorldBody>{{world, body}}, std::vector<BodyProperties>{properties});
+  };
+  const uint64_t before = batch.state_hash(2);
+  CHECK_THROWS_WITH(set(2, 1, {.type = BodyType::fixed}),
+                    "set_properties: world 2: body 1: its type cannot change in a batch, because joint 0 holds it");
+  CHECK_THROWS_WITH(set(1, 2, {.type = BodyType::kinematic}),
+                    "set_properties: world 1: body 2: its type cannot change in a batch, because joint 0 holds it");
+  CHECK_THROWS_WITH(set(2, 2, {.type = BodyType::kinematic}),
+                    ContainsSubstring("world 2: body 2") && ContainsSubstring("joint 1 holds it"));
+  CHECK_THROWS_WITH(set(1, 3, {.mass = -1.0f}), ContainsSubstring("set_properties: world 1: body 3: mass is -1"));
+  CHECK_NOTHROW(set(2, 1, {.type = BodyType::dynamic}));
+  CHECK_NOTHROW(set(1, 1, {.type = BodyType::fixed}));
+  CHECK(batch.state_hash(2) == before);
+}
+
+TEST_CASE("axes of joints of a batch that are refused are named by the numbers of their world")
+{
+  Scene scene = two_joined_and_one_free();
+  scene.joints[0].rotations[0].friction = 1;
+  Worlds batch(std::vector<Scene>(3, scene), {}, {"serial", {}});
+  const auto set = [&](uint32_t world, uint32_t joint, const JointAxis &axis) {
+    batch.set_joint_axes(std::vector<WorldJoint>{{world, joint}}, std::vector<JointAxisChange>{{3, axis}});
+  };
+  CHECK_THROWS_WITH(set(2, 0, {.friction = -1}), ContainsSubstring("set_joint_axes: world 2: joint 0: rotations[0]"));
+  CHECK_THROWS_WITH(set(1, 0, {}), ContainsSubstring("set_joint_axes: world 1: joint 0: an axis would come or go"));
+  CHECK_THROWS_WITH(set(1, 0, {.lower = -1, .upper = 1, .restitution = 0.5f}),
+                    ContainsSubstring("world 1: joint 0: an axis would come or go, or begin to bounce"));
+  CHECK_NOTHROW(set(1, 0, {.friction = 2}));
 }
 
 TEST_CASE("the frequency and the damping of joints are checked")

@@ -229,6 +229,41 @@ TEST_CASE("xml, strictly: what is no XML, no text or no robot, is refused by its
   check_one_line(mjcf_complaint(nested("body", 10'000)), mjcf_path, "some hundred deep");
 }
 
+TEST_CASE("xml, strictly: references to what is no character are refused, and others are read", "[address]")
+{
+  const auto read = [](const std::string &name) {
+    return parse_scene_urdf("<robot>\n<!-- &#0; --><link name=\"" + name + "\">" + ball + "</link></robot>", urdf_path);
+  };
+  for (const char *wrong :
+       {"&#0;", "&#x0;", "&#xD800;", "&#57343;", "&#x110000;", "&#99999999999;", "&#;", "&#xq;", "&#-5;"}) {
+    CAPTURE(wrong);
+    check_one_line(complaint([&] { read(std::string("a") + wrong + "b"); }),
+                   urdf_path + ": line 2: ", std::string("\"") + wrong + "\" is no character");
+  }
+  CHECK(read("&#x41;&#98;&#xe4;&#x10ffff;").bodies[0].name == "Ab\xc3\xa4\xf4\x8f\xbf\xbf");
+}
+
+/* Each of these would take minutes or all memory if it were read to its end. */
+TEST_CASE("urdf and mjcf, strictly: small files that ask for much are refused", "[address]")
+{
+  std::string links = base, elements, classes, contents;
+  for (int k = 0; k < 60; ++k)
+    links += urdf_link(fmt::format("l{}", k), "") + urdf_joint(fmt::format("j{}", k), "continuous",
+                                                               k == 0 ? "base" : fmt::format("l{}", k - 1),
+                                                               fmt::format("l{}", k));
+  links += arm + urdf_joint("last", "continuous", "l59", "arm");
+  check_one_line(urdf_complaint(links), urdf_path + ": line 1: ", "has no mass, and so have those before it");
+  for (int k = 0; k < 1200; ++k) {
+    elements += fmt::format("<e{} a=\"1\"/>", k);
+    classes += fmt::format("<default class=\"c{}\"/>", k);
+    contents += "<unknown/>";
+  }
+  check_one_line(mjcf_complaint("<default>" + elements + classes + "</default>"),
+                 mjcf_path + ": line 1: ", "more than 1000000 attributes");
+  check_one_line(mjcf_complaint("<worldbody><replicate count=\"9999\">" + contents + "</replicate></worldbody>"),
+                 mjcf_path + ": line 1: ", "more than 1000000 elements");
+}
+
 /* tinyxml2 reads no document types, so an entity stays as it is written and nothing grows. */
 TEST_CASE("xml, strictly: entities are not expanded", "[address]")
 {

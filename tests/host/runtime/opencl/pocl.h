@@ -21,14 +21,14 @@ inline bool has_pocl()
 
 inline void require_pocl()
 {
-  if (!has_pocl()) tests::skip_device("no PoCL");
+  if (!has_pocl()) ::tests::skip_device("no PoCL");
 }
 
 /* For a test that also runs on other backends: it counts as not whole without PoCL. */
 inline void add_pocl(std::vector<std::string> &backends)
 {
   if (has_pocl()) backends.emplace_back("cl:pocl");
-  else tests::leave_out_device("no PoCL");
+  else ::tests::leave_out_device("no PoCL");
 }
 
 } // namespace tandem::parity
