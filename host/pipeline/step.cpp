@@ -10,6 +10,10 @@
 #include <algorithm>
 #include <utility>
 
+#include <fmt/format.h>
+
+#include <tandem/error.h>
+
 #include "host/pipeline/batching/batcher.h"
 #include "host/pipeline/broadphases/broadphase.h"
 #include "host/pipeline/pair_lists.h"
@@ -39,7 +43,7 @@ public:
     if (plan().sleepers && plan().other_sleepers) list_sleepers(*this);
     run(Kernel::prepare_bodies);
     if (has(FEATURE_LOCKS)) run(Kernel::lock_bodies);
-    if (has(FEATURE_ARTICULATIONS)) run(Kernel::begin_articulations);
+    if (has_links()) run(Kernel::begin_articulations);
     if (has(FEATURE_JOINTS)) take_joint_colors();
     run_extensions(StepPoint::begin);
     find_pairs();
@@ -176,13 +180,22 @@ private:
     const BatcherRow &batcher = row_of(settings().batching);
     run(Kernel::match_pairs, {batcher.keeps_colors ? 1u : 0u});
     batcher.launch(*this);
-    const bool by_world = has(FEATURE_WORLDS) && plan().colors > COLOR_LIMIT, by_link = has(FEATURE_ARTICULATIONS);
+    const bool by_world = has(FEATURE_WORLDS) && plan().colors > COLOR_LIMIT, by_link = has_links();
+    if (by_link && by_world) refuse_overflow_beside_links();
     if (by_link) run(Kernel::link_color_keys);
     else if (by_world) find_color_keys_by_world();
     else run(Kernel::color_keys);
     sort(Buffer::sort_key, Buffer::sort_value, COUNT_PAIRS, plan().capacity_pairs, 0, 8);
     run(by_link ? Kernel::link_color_starts : by_world ? Kernel::world_color_starts : Kernel::color_starts);
     if (settings().check) launch_check(*this);
+  }
+
+  /* Worlds with overflow constraints take further passes, and the order that has theirs apart has no links apart. */
+  [[noreturn]] static void refuse_overflow_beside_links()
+  {
+    throw InputError(fmt::format("in a batch with articulations, a body has more than {} contacts of others than links; "
+                                 "make a world of its own of that scene",
+                                 COLOR_LIMIT));
   }
 
   void find_color_keys_by_world()

@@ -49,7 +49,7 @@ void StepLaunches::run_pairs(Kernel kernel, uint32_t first_kind, uint32_t last_k
 void StepLaunches::launch_color(Kernel kernel, uint32_t color, const Values &values)
 {
   const uint32_t first = COLOR_START + color, begins = limited_ ? WORLD_COLOR_START + color : first;
-  const uint32_t end = has(FEATURE_ARTICULATIONS) ? LINK_COLOR_START + color : first + 1;
+  const uint32_t end = has_links() ? LINK_COLOR_START + color : first + 1;
   launcher_.launch({kernel, {}, values, begins, end, plan_.known[end] - plan_.known[first]});
 }
 
@@ -68,7 +68,7 @@ void StepLaunches::for_each_color_with_joints(Kernel joints, Kernel constraints,
 
 void StepLaunches::for_each_link_color(uint32_t pass)
 {
-  if (!has(FEATURE_ARTICULATIONS)) return;
+  if (!has_links()) return;
   for (uint32_t color = 0; color < std::min(plan_.colors, LINK_COLORS); ++color)
     run_range(Kernel::solve_link_contacts, LINK_COLOR_START + color, COLOR_START + color + 1, {pass});
   if (plan_.colors > LINK_COLORS) run(Kernel::solve_link_contacts_in_order, {pass});
@@ -115,14 +115,14 @@ void StepLaunches::begin_substep(uint32_t substep)
   run_extensions(StepPoint::forces);
   if (plan_.forces) run(Kernel::apply_forces);
   run(Kernel::integrate_velocities);
-  if (has(FEATURE_ARTICULATIONS)) run(Kernel::accelerate_articulations, {plan_.forces});
+  if (has_links()) run(Kernel::accelerate_articulations, {plan_.forces});
   if (has(FEATURE_MAX_SPEED)) run(Kernel::clamp_speeds);
 }
 
 void StepLaunches::move_bodies()
 {
   run(Kernel::integrate_positions);
-  if (has(FEATURE_ARTICULATIONS)) run(Kernel::move_articulations);
+  if (has_links()) run(Kernel::move_articulations);
   if (has(FEATURE_LOCKS) && has(FEATURE_GYROSCOPIC)) run(Kernel::lock_bodies);
   if (plan_.forces) run(Kernel::follow_forces);
 }

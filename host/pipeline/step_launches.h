@@ -20,6 +20,8 @@ public:
   const Settings &settings() const { return settings_; }
   Launcher &launcher() { return launcher_; }
   bool has(Features feature) const { return (plan_.features & feature) != 0; }
+  /* A scene may lack articulations though every feature is built. */
+  bool has_links() const { return has(FEATURE_ARTICULATIONS) && plan_.known[COUNT_ARTICULATIONS] > 0; }
 
   /* Launches a kernel over the items of its row; a kernel of groups only if the scene alone determines their number. */
   void run(Kernel kernel, const Values &values = {}, const Slots &slots = {});

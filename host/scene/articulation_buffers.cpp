@@ -246,7 +246,6 @@ void check_articulations(const Settings &settings, const Scene &scene)
 void stage_articulations(StagedUploads &uploads, const Scene &scene, std::span<const uint32_t> index_of_body,
                          size_t room, const std::vector<BodyStatus> &status)
 {
-  if (scene.articulations.empty()) return;
   LinkTables tables(room);
   for (const Articulation &articulation : scene.articulations)
     tables.add(scene, ordered_links_of(scene, articulation, scene.name), index_of_body, status);

@@ -52,6 +52,7 @@ void World::Implementation::move_joint_rows(const JointOrder::Moves &moves, bool
 /* Tells kernels which articulations have all of their links. */
 void World::Implementation::tell_articulations()
 {
+  if (scene.articulations.empty()) return;
   StagedUploads uploads;
   stage_articulations(uploads, scene, index_of_body, plan.bodies, slots.status());
   uploads.write(memory);
@@ -64,7 +65,8 @@ void World::Implementation::tell_joints()
   StagedUploads uploads;
   stage_bodies_of_joints(uploads, scene, joint_graph, joint_order.awake(), index_of_body, first_joined_pair(sizes()));
   stage_joints_of_couplings(uploads, scene, coupling_graph, joint_order.awake());
-  stage_articulations(uploads, scene, index_of_body, plan.bodies, slots.status());
+  if (!scene.articulations.empty())
+    stage_articulations(uploads, scene, index_of_body, plan.bodies, slots.status());
   for (const auto &[entry, value] : joint_entries_of(joint_order.starts()))
     uploads.add_count(static_cast<uint32_t>(entry), value);
   uploads.add(Buffer::parameters, std::vector<Parameters>{parameters_now()});

@@ -342,7 +342,7 @@ TEST_CASE("messages about snapshots say what is wrong", "[sanitizer]")
   other = snapshot;
   other[8] = std::byte{9};
   CHECK_THAT(message_of(other),
-             ContainsSubstring("snapshot: the snapshot has format 9; Tandem ") && ContainsSubstring("reads format 7"));
+             ContainsSubstring("snapshot: the snapshot has format 9; Tandem ") && ContainsSubstring("reads format 8"));
   other = snapshot;
   other[100] ^= std::byte{1};
   CHECK_THAT(message_of(other), ContainsSubstring("do not have the hash of its header; it is damaged"));
