@@ -147,6 +147,7 @@ void World::Implementation::record_kernels()
   all.substeps.starts = all.substeps.automatic;
   all.rounds = BATCH_ROUNDS * COLOR_LIMIT; /* the most rounds after which a batcher launches another kernel */
   all.known[COUNT_PAIRS] = all.known[COUNT_CONSTRAINTS] = most_pairs; /* many pairs, which touch */
+  all.known[COUNT_ARTICULATIONS] = static_cast<uint32_t>(scene.articulations.size());
   Recorder recorder;
   all.drowsy = all.sleepers = all.other_sleepers = settings.sleeping;
   launch_step(recorder, all, settings_in_use);
