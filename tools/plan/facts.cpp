@@ -33,6 +33,7 @@ const char *what_asks_for(Stage stage)
   case Stage::setup: return "--substeps auto";
   case Stage::forces: return "forces";
   case Stage::joints: return "joints";
+  case Stage::articulations: return "articulations";
   case Stage::solve: return "--solver";
   case Stage::sleeping: return "--sleep";
   case Stage::events: return "events";
