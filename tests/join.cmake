@@ -42,6 +42,7 @@ join_tests(other_tests solvers "physics/(body_coloring|mass_split|reference|refe
 join_tests(other_tests joints "((host/(io|scene|verify|world)|parity|physics)/(json/)?joint)")
 join_tests(other_tests joint_calls "(parity|physics)/joint_calls")
 join_tests(other_tests couplings "(host/scene|parity|physics)/coupling")
+join_tests(other_tests articulations "(parity|physics)/articulations")
 join_tests(other_tests shared "shared/(broadphase|midphase|parallel)/")
 join_tests(other_tests narrowphase "shared/narrowphase/")
 join_tests(other_tests convex "shared/narrowphase/(conservative|convex|cube|gjk|hull|libccd)_")

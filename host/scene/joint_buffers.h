@@ -12,6 +12,7 @@
 #include "host/runtime/interface/features.h"
 #include "host/scene/joint_graph.h"
 #include "host/scene/staged_uploads.h"
+#include "shared/platform.h"
 
 namespace tandem {
 
