@@ -290,8 +290,9 @@ const BuiltInScene &find_scene(const std::string &name)
 {
   for (const BuiltInScene &scene : catalog())
     if (name == scene.name) return scene;
-  throw InputError(fmt::format("unknown scene '{}'; built-in scenes: {}; scene files end in .json, .gltf or .glb", name,
-                               scene_names()));
+  throw InputError(
+      fmt::format("unknown scene '{}'; built-in scenes: {}; scene files end in .json, .gltf, .glb, .urdf or .xml", name,
+                  scene_names()));
 }
 
 const SceneParameter &find_parameter(const BuiltInScene &scene, const std::string &name)

@@ -236,7 +236,8 @@ TEST_CASE("every built-in scene is among those that are run with sleep")
   for (const SleepingScene &scene : sleeping_scenes()) named.insert(parse_scene_spec(scene.text).scene->name);
   for (const BuiltInScene &scene : built_in_scenes()) {
     INFO(scene.name);
-    CHECK(named.count(scene.name));
+    const bool has_links = !load_scene(scene.name).articulations.empty(); /* which do not sleep */
+    CHECK(named.count(scene.name) != has_links);
   }
 }
 

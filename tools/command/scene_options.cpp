@@ -62,7 +62,7 @@ SceneOptions::SceneOptions(CLI::App &parser, bool one_backend) : one_backend_(on
     parser.add_option(name, value, what)->type_name(type)->capture_default_str();
   };
   const std::string recording = one_backend ? "" : ", a recording (.tandem)"; /* which `tandem replay` runs on one */
-  parser.add_option("SCENE", scene_, "a file (.json, .gltf, .glb)" + recording + " or name:key=value,...")
+  parser.add_option("SCENE", scene_, "a file (.json, .gltf, .glb, .urdf, .xml)" + recording + " or name:key=value,...")
       ->required()
       ->type_name("");
   if (one_backend) option("--on", on_, "backend: serial, tbb[:threads=N,lanes=N], cl, cl:P.D, cl:PART-OF-A-NAME", "B");

@@ -251,7 +251,7 @@ TEST_CASE("bad specifications are refused with what exists")
   CHECK_THAT(complaint("box-gird"),
              ContainsSubstring("unknown scene 'box-gird'") &&
                  ContainsSubstring("box-grid, falling-boxes, box-stack, pyramid, spheres, mixed"));
-  CHECK_THAT(complaint("pile.urdf"), ContainsSubstring(".json, .gltf or .glb"));
+  CHECK_THAT(complaint("pile.usd"), ContainsSubstring(".json, .gltf, .glb, .urdf or .xml"));
   CHECK_THAT(complaint(""), ContainsSubstring("unknown scene ''"));
   CHECK_THAT(complaint("box-grid:mx=3"), ContainsSubstring("unknown parameter 'mx'; parameters: nx, ny, nz"));
   CHECK_THAT(complaint("box-grid:nx=0"), ContainsSubstring("nx=0 is out of range; 1 to 360"));
