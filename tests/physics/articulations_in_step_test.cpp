@@ -1,5 +1,7 @@
 /* Articulations within the step of a world, against closed forms, dense matrices in double precision, and bodies that
  * are none. */
+#include <set>
+
 #include <tandem/articulations.h>
 
 #include "tests/catch.h"
@@ -300,4 +302,32 @@ TEST_CASE("set_joint_axes moves the targets of an articulation", "[articulations
   run(world, 300);
   CHECK(world.read_joints(std::span(&ids[1], 1))[0].rotations[0] == Approx(0.7).margin(1e-3));
   CHECK(world.read_joints(std::span(&ids[0], 1))[0].rotations[0] == Approx(0).margin(1e-3));
+}
+
+TEST_CASE("a link that is not finite takes its tree into quarantine, and nobody else", "[articulations]")
+{
+  World world(load_scene("humanoid:n=2"), {}, serial);
+  run(world, 10);
+  world.set_velocity(world.body_ids()[3], {{3e38f, 0, 0}, {0, 3e38f, 0}});
+  run(world, 60);
+  std::set<uint32_t> out;
+  for (const Quarantine &taken : world.quarantined()) out.insert(taken.body);
+  CHECK(out.size() == 14);
+  CHECK(*out.begin() == 1);
+  CHECK(*out.rbegin() == 14);
+  CHECK(world.precise_bodies()[18].position[1] > 1.6); /* the head of the other one */
+  World restored(world.save(), {"tbb:threads=2", {}, false});
+  run(restored, 5);
+  run(world, 5);
+  CHECK(restored.state_hash() == world.state_hash());
+}
+
+TEST_CASE("a link that is put elsewhere comes back to its tree", "[articulations]")
+{
+  World world(load_scene("humanoid"), {}, serial);
+  BodyState forearm = world.bodies()[6];
+  forearm.position[1] += 1;
+  world.set_state(world.body_ids()[6], forearm);
+  world.step();
+  CHECK(open_joints(world).max_distance < 2e-6);
 }
