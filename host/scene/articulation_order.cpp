@@ -2,6 +2,7 @@
 #include "host/scene/articulation_order.h"
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include <fmt/format.h>
@@ -20,7 +21,8 @@ public:
   {
     check_joints();
     start();
-    while (grow()) {}
+    list_joints();
+    grow();
     require_all();
     number();
   }
@@ -143,23 +145,29 @@ private:
       fail(name + " has locked axes; links of a tree have none");
     for (const float x : inverse_inertia_of(scene_, body))
       if (!(x > 0)) fail(name + " has an infinite moment of inertia; links of a tree have finite ones");
-    for (const OrderedLink &other : links_)
-      if (other.link.body == l.link.body)
-        fail_joint(l.link.joint, "closes a loop; leave it out, and it closes the loop as a joint of the scene");
+    if (!linked_.insert(l.link.body).second)
+      fail_joint(l.link.joint, "closes a loop; leave it out, and it closes the loop as a joint of the scene");
     links_.push_back(l);
   }
 
-  /* One link more, if any joint goes on from the links that there are. */
-  bool grow()
+  /* By body, in the order of Articulation::joints. */
+  void list_joints()
   {
-    const size_t before = links_.size();
-    for (; next_ < links_.size(); ++next_)
-      for (size_t n = 0; n < used_.size(); ++n) {
-        const Joint &joint = scene_.joints[articulation_.joints[n]];
-        const uint32_t body = links_[next_].link.body;
-        if (!used_[n] && (joint.body_a == body || joint.body_b == body)) add(n, joint.body_b == body, uint32_t(next_));
-      }
-    return links_.size() > before;
+    for (size_t n = 0; n < articulation_.joints.size(); ++n) {
+      const Joint &joint = scene_.joints[articulation_.joints[n]];
+      of_body_[joint.body_a].push_back(n);
+      of_body_[joint.body_b].push_back(n);
+    }
+  }
+
+  /* Links go on from those that there are, until no joint is left that does. */
+  void grow()
+  {
+    for (size_t k = 0; k < links_.size(); ++k) {
+      const uint32_t body = links_[k].link.body;
+      for (const size_t n : of_body_[body])
+        if (!used_[n]) add(n, scene_.joints[articulation_.joints[n]].body_b == body, uint32_t(k));
+    }
   }
 
   void require_all() const
@@ -186,7 +194,8 @@ private:
   const std::string &where_;
   std::vector<OrderedLink> links_;
   std::vector<bool> used_;
-  size_t next_ = 0;
+  std::set<uint32_t> linked_;                       /* the bodies of links_ */
+  std::map<uint32_t, std::vector<size_t>> of_body_; /* entries of Articulation::joints */
 };
 
 } // namespace
