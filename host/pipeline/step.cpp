@@ -193,9 +193,10 @@ private:
   /* Worlds with overflow constraints take further passes, and the order that has theirs apart has no links apart. */
   [[noreturn]] static void refuse_overflow_beside_links()
   {
-    throw InputError(fmt::format("in a batch with articulations, a body has more than {} contacts of others than links; "
-                                 "make a world of its own of that scene",
-                                 COLOR_LIMIT));
+    throw InputError(
+        fmt::format("in a batch with articulations, a body has more than {} contacts of others than links; "
+                    "make a world of its own of that scene",
+                    COLOR_LIMIT));
   }
 
   void find_color_keys_by_world()
