@@ -14,8 +14,7 @@ using namespace tandem::tree_tests;
 using namespace tandem::float_trees;
 using tandem::Random;
 
-TEST_CASE("articulations in float: links accelerate as dense matrices say, to some roundings",
-          "[articulations][sanitizer]")
+TEST_CASE("articulations in float: links accelerate as dense matrices say, to some roundings", "[articulations]")
 {
   Random random(11);
   for (int n = 0; n < 20; ++n) {
