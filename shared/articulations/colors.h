@@ -24,12 +24,11 @@ SHARED void link_color_keys_item(GLOBAL const uint *pair_a, GLOBAL const uint *p
   pair_constraint[i] = INDEX_NONE;
 }
 
-SHARED void link_color_starts_item(GLOBAL const uint *sort_key, GLOBAL uint *counts, uint color)
+SHARED void link_color_starts_item(GLOBAL const uint *sort_key, GLOBAL uint *counts, uint i)
 {
   uint pairs = counts[COUNT_PAIRS];
-  store_color_range(counts, color, first_not_below(sort_key, pairs, 2u * color),
-                    first_not_below(sort_key, pairs, 2u * color + 2u));
-  if (color < COLOR_LIMIT) counts[LINK_COLOR_START + color] = first_not_below(sort_key, pairs, 2u * color + 1u);
+  store_color_range(counts, i, first_not_below(sort_key, pairs, 2u * i), first_not_below(sort_key, pairs, 2u * i + 2u));
+  if (i < COLOR_LIMIT) counts[LINK_COLOR_START + i] = first_not_below(sort_key, pairs, 2u * i + 1u);
 }
 
 #endif
