@@ -3,6 +3,6 @@
 #define TANDEM_SHARED_BATCHING_NODE_WORDS_H
 
 /* The node of the graph of contacts, the articulation (INDEX_NONE: none), and the number of the link. */
-#define LINK_WORDS 3u
+enum { LINK_WORDS = 3 };
 
 #endif
