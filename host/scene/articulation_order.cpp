@@ -9,6 +9,7 @@
 
 #include "host/base/printable.h"
 #include "host/scene/checker.h"
+#include "host/scene/joint_rows.h"
 #include "host/scene/specialise.h"
 
 namespace tandem {
@@ -48,6 +49,7 @@ private:
       if (joint >= scene_.joints.size())
         fail(fmt::format("joint {} does not exist; the scene has {} joints", joint, scene_.joints.size()));
       if (!seen.insert(joint).second) fail_joint(joint, "is named twice; name each joint once");
+      if (is_vacant(scene_.joints[joint])) fail_joint(joint, "was destroyed; it has no bodies");
       check_type(joint);
     }
     if (!articulation_.armatures.empty() && articulation_.armatures.size() != articulation_.joints.size())

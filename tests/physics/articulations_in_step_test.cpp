@@ -241,6 +241,10 @@ TEST_CASE("what articulations cannot have is refused by name", "[articulations]"
   other.bodies[1].linear_damping = 1;
   refuses(other, "body 1 has damping");
   other = scene;
+  other.joints.emplace_back().enabled = false; /* as one that was destroyed */
+  other.articulations.push_back({"none", {3}, no_body, {}});
+  refuses(other, "joint 3 was destroyed; it has no bodies");
+  other = scene;
   other.bodies[1].continuous = true;
   refuses(other, "body 1 is continuous");
   other = scene;
