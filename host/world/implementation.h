@@ -257,6 +257,7 @@ struct World::Implementation {
   void refuse_joined(const char *call, const char *why, std::span<const uint32_t> given) const;
   std::string call_in_message(const char *call, uint32_t body) const;
   uint32_t joint_in_message(uint32_t joint) const;
+  uint32_t body_in_message(uint32_t body) const { return is_batch() ? body % bodies_of_world() : body; }
 
   /* --- joints that come, change and go: joint_calls.cpp ----------------------------------------------------------- */
   class PlacedJoints;

@@ -85,14 +85,17 @@ void World::Implementation::refuse_articulated(const char *call, const char *why
 {
   for (const uint32_t joint : joints)
     if (is_in_tree(joint))
-      throw InputError(fmt::format("{}: joint {}: {}, because an articulation has it", call, joint, why));
+      throw InputError(fmt::format("{}: joint {}: {}, because an articulation has it",
+                                   call_in_message(call, some_body_of(scene.joints[joint])), joint_in_message(joint),
+                                   why));
 }
 
 void World::Implementation::refuse_linked(const char *call, const char *why, std::span<const uint32_t> given) const
 {
   for (const uint32_t body : given)
     if (links.has_body(body))
-      throw InputError(fmt::format("{}: body {}: {}, because it is a link of an articulation", call, body, why));
+      throw InputError(fmt::format("{}: body {}: {}, because it is a link of an articulation",
+                                   call_in_message(call, body), body_in_message(body), why));
 }
 
 /* The awake bodies of joints begin their rest anew; those asleep wake. */

@@ -44,7 +44,7 @@ void World::Implementation::refuse_joined(const char *call, const char *why, std
     for (const uint32_t body : {scene.joints[k].body_a, scene.joints[k].body_b})
       if (body != no_body && is_given[body])
         throw InputError(fmt::format("{}: body {}: {}, because joint {} holds it", call_in_message(call, body),
-                                     is_batch() ? body % bodies_of_world() : body, why, joint_in_message(k)));
+                                     body_in_message(body), why, joint_in_message(k)));
 }
 
 /* The call, and of a batch the world of the body. */

@@ -181,7 +181,7 @@ void World::Implementation::set_properties(std::span<const BodyId> ids, std::spa
 /* Tables of articulations have masses and moments, and a step has no damping of links, nor highest speeds. */
 void World::Implementation::refuse_for_links(std::span<const uint32_t> changed, std::span<const Body> changed_bodies)
 {
-  if (scene.articulations.empty()) return;
+  if (std::none_of(changed.begin(), changed.end(), [&](uint32_t slot) { return links.has_body(slot); })) return;
   for (size_t k = 0; k < changed.size(); ++k) {
     const Body &now = changed_bodies[k], &before = scene.bodies[changed[k]];
     if (now.type != before.type || now.mass != before.mass || now.inertia != before.inertia ||
