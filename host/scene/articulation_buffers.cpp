@@ -8,7 +8,6 @@
 #include <tandem/round_to_float.h>
 
 #include "host/scene/articulation_order.h"
-#include "host/scene/axis_bits.h"
 #include "host/scene/body_buffers.h"
 #include "host/scene/checker.h"
 #include "host/scene/joint_buffers.h"
@@ -29,6 +28,15 @@ float4 float4_of(const std::array<double, 4> &row)
 bool is_implicit(const JointAxis &axis)
 {
   return !axis.motor && (axis.stiffness > 0 || axis.damping > 0) && axis.max_force == JointAxis::unlimited;
+}
+
+/* The row with the moments and those of the axis, which follow it. */
+std::array<float4, LINK_ROWS - LINK_MOMENTS> axis_rows_of(const Scene &scene, const JointAxis &axis, uint32_t body)
+{
+  const std::array<double, 3> moments = moments_of_link(scene, scene.bodies[body]);
+  const auto axis_row = row_of_axis(axis);
+  return {float4_of({moments[0], moments[1], moments[2], is_implicit(axis) ? 1.0 : 0.0}), axis_row[0], axis_row[1],
+          axis_row[2]};
 }
 
 /* The tables while links are added. */
@@ -73,11 +81,10 @@ struct LinkTables {
 private:
   void add_link(const Scene &scene, const OrderedLink &l, bool is_root)
   {
-    LinkRows rows = rows_of_link(scene, l);
+    const LinkRows rows = rows_of_link(scene, l);
     code.push_back(rows.code);
-    rows.numbers[LINK_MOMENTS][3] = is_implicit(l.axis) ? 1 : 0;
-    for (const auto &numbers : rows.numbers) row.push_back(float4_of(numbers));
-    const auto axis = row_of_axis(l.axis);
+    for (size_t k = 0; k < LINK_MOMENTS; ++k) row.push_back(float4_of(rows.numbers[k]));
+    const auto axis = axis_rows_of(scene, l.axis, l.link.body);
     row.insert(row.end(), axis.begin(), axis.end());
     if (!is_root) return;
     const auto position = double_float3_of(rows.ground);
@@ -181,26 +188,13 @@ JointedLinks links_of(const Scene &scene)
   return links;
 }
 
-namespace {
-
-/* The row with the moments and those of the axis, which follow it. */
-std::vector<float4> axis_rows_of(const Scene &scene, const Joint &joint, uint32_t body)
-{
-  const JointAxis axis = axis_of_tree(joint);
-  const std::array<double, 3> moments = moments_of_link(scene, scene.bodies[body]);
-  std::vector<float4> rows{float4_of({moments[0], moments[1], moments[2], is_implicit(axis) ? 1.0 : 0.0})};
-  for (const float4 &row : row_of_axis(axis)) rows.push_back(row);
-  return rows;
-}
-
-} // namespace
-
 void stage_link_axes(StagedUploads &uploads, const Scene &scene, std::span<const uint32_t> joints,
                      const JointedLinks &links)
 {
   const auto stage = [&](uint32_t joint) {
     if (links.of_joint[joint] == no_link) return;
-    uploads.add_elements(Buffer::link_row, axis_rows_of(scene, scene.joints[joint], links.body_of_joint[joint]),
+    const auto rows = axis_rows_of(scene, axis_of_tree(scene.joints[joint]), links.body_of_joint[joint]);
+    uploads.add_elements(Buffer::link_row, std::vector<float4>(rows.begin(), rows.end()),
                          size_t{links.of_joint[joint]} * LINK_ROWS + LINK_MOMENTS);
   };
   for (const uint32_t joint : joints) stage(joint);
