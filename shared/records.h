@@ -60,12 +60,15 @@ SHARED double_float3 moved_position(double_float3 p, vec3 by)
   return moved;
 }
 
-/* The centre of `to` seen from the centre of `from`. The high parts are subtracted first, so that the distance from the
- * origin costs no precision. */
+/* The high parts are subtracted first, so that the distance from the origin costs no precision. */
+SHARED vec3 way_between(double_float3 from, double_float3 to)
+{
+  return add(subtract(to.high, from.high), subtract(to.low, from.low));
+}
+/* The centre of `to` seen from the centre of `from`. */
 SHARED vec3 offset_between(GLOBAL const float4 *body_position, uint_lanes from, uint_lanes to)
 {
-  double_float3 a = load_position(body_position, from), b = load_position(body_position, to);
-  return add(subtract(b.high, a.high), subtract(b.low, a.low));
+  return way_between(load_position(body_position, from), load_position(body_position, to));
 }
 
 /* The smallest half extent of a pair; 0 if neither shape has one (half-spaces, flat meshes). */

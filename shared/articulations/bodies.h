@@ -96,8 +96,7 @@ SHARED vec3 velocity_of_joint(tree_link l, seen_joint j, spatial_motion parent, 
 SHARED vec3 offset_of_link(read_links links, read_bodies bodies, const articulation *t, tree_link l, uint body)
 {
   if (!l.is_root) return offset_between(bodies.position, body_of_link(links, t, l.parent), body);
-  double_float3 a = root_position(t), own = load_position(bodies.position, body);
-  return add(subtract(own.high, a.high), subtract(own.low, a.low));
+  return way_between(root_position(t), load_position(bodies.position, body));
 }
 
 /* The root stands where its body does, or where the ground holds it. */
@@ -157,8 +156,7 @@ SHARED void write_pose(read_links links, read_bodies bodies, const articulation 
                        GLOBAL float4 *orientation)
 {
   uint body = body_of_link(links, t, k);
-  double_float3 now = link_position(t, k), start = load_position(bodies.position, body);
-  vec3 moved = add(subtract(now.high, start.high), subtract(now.low, start.low));
+  vec3 moved = way_between(load_position(bodies.position, body), link_position(t, k));
   quat q = quat_from(load_work(t, k, (uint)WORK_ORIENTATION)), from = quat_from(load_float4(bodies.orientation, body));
   store_float4(delta_pose, body * 2u, extend(moved, R(0.0)));
   store_float4(delta_pose, body * 2u + 1u, extend(rotation_vector(quat_multiply(q, conjugate(from))), R(0.0)));

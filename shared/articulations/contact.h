@@ -17,7 +17,7 @@
 
 typedef struct {
   contact_side a, b;
-  contact shape;  /* normal, friction and arms; without velocities */
+  contact shape;  /* as the bodies alone would have it; the sides have velocities and inertias */
   uint is_within; /* both are links of one tree */
   arm_shift shift;
   vec4 offset, center_a, center_b;
@@ -30,8 +30,8 @@ SHARED link_contact load_link_contact(GLOBAL const Parameters *parameters, read_
 {
   link_contact c;
   c.shape = load_contact(parameters, contacts, solver_velocity, bodies.inertia, i);
-  c.a = load_contact_side(parameters, links, states, bodies.inertia, solver_velocity, c.shape.a);
-  c.b = load_contact_side(parameters, links, states, bodies.inertia, solver_velocity, c.shape.b);
+  c.a = contact_side_of(links, states, c.shape.a, c.shape.velocity_a, c.shape.inertia_a, c.shape.locks_a);
+  c.b = contact_side_of(links, states, c.shape.b, c.shape.velocity_b, c.shape.inertia_b, c.shape.locks_b);
   c.is_within = c.a.is_link && c.b.is_link && c.a.tree.number == c.b.tree.number ? 1u : 0u;
   c.moved = load_delta_pose(bodies.delta, c.shape);
   c.shift = shift_of_contact(c.shape, c.moved.translation);

@@ -37,31 +37,25 @@ SHARED symmetric6 inverse_of_single_body(spatial_velocity m, symmetric3 inertia,
   return s;
 }
 
-SHARED contact_side load_single_body(GLOBAL const Parameters *parameters, GLOBAL const float4 *solver_inertia,
-                                     contact_side s)
-{
-  real locks;
-  symmetric3 inertia = load_inertia_and_locks(parameters, solver_inertia, s.body, s.record, &locks);
-  s.velocity.linear = s.record.linear;
-  s.velocity.angular = s.record.angular;
-  s.inverse = inverse_of_single_body(s.record, inertia, to_uint(locks));
-  return s;
-}
-
-SHARED contact_side load_contact_side(GLOBAL const Parameters *parameters, read_links links, write_link_states states,
-                                      GLOBAL const float4 *solver_inertia, GLOBAL const float4 *solver_velocity,
-                                      uint body)
+/* record, inertia, locks: as the contact has loaded them; they move a body that is no link. */
+SHARED contact_side contact_side_of(read_links links, write_link_states states, uint body, spatial_velocity record,
+                                    symmetric3 inertia, real locks)
 {
   contact_side s;
   s.body = body;
   s.is_link = is_link(links.of_body, body);
   s.k = links.of_body[LINK_WORDS * body + 2u];
-  s.record = load_velocity(solver_velocity, body);
+  s.record = record;
   s.pushed = no_force();
   s.tree = articulation_at(links, states, s.is_link ? articulation_of_body(links.of_body, body) : 0u);
-  if (!s.is_link) return load_single_body(parameters, solver_inertia, s);
-  s.velocity = pending_velocity(&s.tree, s.k);
-  s.inverse = load_symmetric6(&s.tree, s.k);
+  if (s.is_link) {
+    s.velocity = pending_velocity(&s.tree, s.k);
+    s.inverse = load_symmetric6(&s.tree, s.k);
+  } else {
+    s.velocity.linear = record.linear;
+    s.velocity.angular = record.angular;
+    s.inverse = inverse_of_single_body(record, inertia, to_uint(locks));
+  }
   return s;
 }
 
