@@ -57,24 +57,9 @@ TEST_CASE("articulations in their own place, and with every feature built, have 
 
 TEST_CASE("a world with articulations goes on from its snapshot with the same bits, anywhere")
 {
-  World original(tree_crowd(6, 8, 0), watched(), {"serial", {}, false});
-  run(original, 15);
-  const std::vector<std::byte> snapshot = original.save();
-  World world(snapshot, {"tbb:threads=3,lanes=8", {}, false});
-  CHECK(world.save() == snapshot);
-  for (int k = 0; k < 15; ++k) {
-    world.step();
-    original.step();
-    REQUIRE(world.state_hash() == original.state_hash());
-  }
-  original.keep_states(8);
-  const uint64_t before = original.state_hash();
-  run(original, 3);
-  const uint64_t after = original.state_hash();
-  original.go_back(3);
-  CHECK(original.state_hash() == before);
-  run(original, 3);
-  CHECK(original.state_hash() == after);
+  require_goes_on(tree_crowd(6, 8, 0), watched(), [](const World &world, const World &original) {
+    CHECK(world.scene().articulations.size() == original.scene().articulations.size());
+  });
 }
 
 TEST_CASE("parity on CPU: worlds of a batch with articulations have the bits of worlds alone")

@@ -6,6 +6,32 @@
 
 namespace tandem::parity {
 
+/* Takes a scene on from a snapshot, on another backend, and from a state gone back to; ask: what else a
+ * test wants of the world that the snapshot makes, beside the original. */
+template <class Ask> void require_goes_on(const Scene &scene, const Settings &settings, const Ask &ask)
+{
+  using physics_tests::run;
+  World original(scene, settings, {"serial", {}, false});
+  run(original, 15);
+  const std::vector<std::byte> snapshot = original.save();
+  World world(snapshot, {"tbb:threads=3,lanes=8", {}, false});
+  CHECK(world.save() == snapshot);
+  ask(world, original);
+  for (int k = 0; k < 15; ++k) {
+    world.step();
+    original.step();
+    REQUIRE(world.state_hash() == original.state_hash());
+  }
+  original.keep_states(8);
+  const uint64_t before = original.state_hash();
+  run(original, 3);
+  const uint64_t after = original.state_hash();
+  original.go_back(3);
+  CHECK(original.state_hash() == before);
+  run(original, 3);
+  CHECK(original.state_hash() == after);
+}
+
 /* A bridge of planks, which overlap a little, on hinges between two posts, and boxes that fall onto it. */
 inline Scene bridge(int planks = 8, int boxes = 6)
 {
