@@ -38,6 +38,12 @@ size_t StepBuffers::wanted_bytes(Buffer buffer, const Sizes &sizes) const
   return needs_.touched[index_of(buffer)] || is_queried(buffer) ? bytes_of(buffer, sizes) : 0;
 }
 
+/* What is there though no kernel takes it now is written with all others of its kind, so it has room for them. */
+size_t StepBuffers::written_bytes(Buffer buffer, const Sizes &sizes) const
+{
+  return memory_.bytes(buffer) > 0 ? bytes_of(buffer, sizes) : wanted_bytes(buffer, sizes);
+}
+
 void StepBuffers::keep_after_steps(Buffer buffer)
 {
   if (kept_[index_of(buffer)]) return;
@@ -69,12 +75,12 @@ void StepBuffers::allocate(const Sizes &sizes)
     const Buffer buffer = buffer_at(i);
     const Lifetime lifetime = row_of(buffer).lifetime;
     if (is_sized_by_writes(buffer)) continue;
-    if (lifetime == Lifetime::SCENE) memory_.grow(buffer, wanted_bytes(buffer, sizes));
+    if (lifetime == Lifetime::SCENE) memory_.grow(buffer, written_bytes(buffer, sizes));
     else if (!is_carried(lifetime)) memory_.resize(buffer, wanted_bytes(buffer, sizes));
   }
   for (const CarriedBuffer &buffer : carried_) memory_.resize(buffer.previous, wanted_bytes(buffer.previous, sizes));
   for (const CarriedBuffer &buffer : carried_)
-    if (const size_t bytes = wanted_bytes(buffer.now, sizes)) memory_.fit(buffer.now, bytes);
+    if (const size_t bytes = written_bytes(buffer.now, sizes)) memory_.fit(buffer.now, bytes);
   if (shares_) memory_.share(tenancies_of(needs_.spans, memory_, apart()));
 }
 

@@ -60,6 +60,7 @@ public:
 private:
   std::vector<bool> apart() const;
   size_t wanted_bytes(Buffer buffer, const Sizes &sizes) const;
+  size_t written_bytes(Buffer buffer, const Sizes &sizes) const;
   void settle(Backend &backend);
   void reserve_both_sides(const CarriedBuffer &buffer, Storage &storage);
 
