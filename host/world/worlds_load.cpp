@@ -161,6 +161,7 @@ void Worlds::Implementation::load_bodies(uint32_t number, const SnapshotContents
     all.quarantined.push_back(std::move(taken));
   }
   uploads.write(all.memory);
+  all.tell_articulations();
 }
 
 void Worlds::Implementation::load_joints(Buffer buffer, uint32_t number, std::span<const std::byte> rows)
