@@ -124,10 +124,7 @@ public:
           refuse(
               where_, label("coupling", k, scene_.couplings[k].name),
               fmt::format("couples joint {}, which is one of an articulation; couplings are of other joints", joint));
-    for (size_t k = 0; k < scene_.materials.size(); ++k)
-      if (scene_.materials[k].rolling_friction > 0 || scene_.materials[k].spinning_friction > 0)
-        refuse(where_, label("material", k, scene_.materials[k].name),
-               "has rolling or spinning friction, and the scene has articulations; contacts of links have neither");
+    for (size_t k = 0; k < scene_.materials.size(); ++k) check_material_beside_links(scene_.materials[k], k, where_);
   }
 
 private:
@@ -166,6 +163,17 @@ std::vector<bool> articulated_joints(const Scene &scene)
   return joints;
 }
 
+namespace {
+
+/* The other body of the joint that holds a root. */
+void note_base(const Joint &joint, uint32_t root, JointedLinks &links)
+{
+  const uint32_t base = joint.body_a == root ? joint.body_b : joint.body_a;
+  if (base != no_body) links.bases[base] = true;
+}
+
+} // namespace
+
 JointedLinks links_of(const Scene &scene)
 {
   JointedLinks links;
@@ -173,10 +181,12 @@ JointedLinks links_of(const Scene &scene)
   links.of_joint.assign(scene.joints.size(), no_link);
   links.body_of_joint.assign(scene.joints.size(), no_body);
   links.of_body.assign(scene.bodies.size(), no_link);
+  links.bases.resize(scene.bodies.size());
   for (const Articulation &articulation : scene.articulations) {
     links.trees.emplace_back();
     for (const OrderedLink &l : ordered_links_of(scene, articulation, scene.name)) {
       if (l.link.joint != ArticulationLink::none) {
+        if (l.link.parent == ArticulationLink::none) note_base(scene.joints[l.link.joint], l.link.body, links);
         links.of_joint[l.link.joint] = links.count;
         links.body_of_joint[l.link.joint] = l.link.body;
       }
@@ -200,6 +210,13 @@ void stage_link_axes(StagedUploads &uploads, const Scene &scene, std::span<const
   for (const uint32_t joint : joints) stage(joint);
   if (!joints.empty()) return;
   for (uint32_t joint = 0; joint < links.of_joint.size(); ++joint) stage(joint);
+}
+
+void check_material_beside_links(const Material &material, size_t index, const std::string &where)
+{
+  if (material.rolling_friction > 0 || material.spinning_friction > 0)
+    refuse(where, label("material", index, material.name),
+           "has rolling or spinning friction, and the scene has articulations; contacts of links have neither");
 }
 
 void check_joint_of_tree(const Joint &joint, size_t index, const std::string &where)

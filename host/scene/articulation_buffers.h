@@ -25,11 +25,16 @@ struct JointedLinks {
   std::vector<uint32_t> of_joint, body_of_joint; /* by joint of the scene: its link, and the body of that; or no_link */
   std::vector<std::vector<uint32_t>> trees;      /* the bodies of each articulation */
   std::vector<uint32_t> of_body;                 /* by body of the scene: its articulation, or no_link */
+  std::vector<bool> bases;                       /* by body: whether a tree stands on it */
 
+  bool has_base(uint32_t body) const { return body < bases.size() && bases[body]; }
   bool has_body(uint32_t body) const { return body < of_body.size() && of_body[body] != no_link; }
 };
 /* The articulations have been validated. */
 JointedLinks links_of(const Scene &scene);
+
+/* Throws InputError if contacts of links cannot have the material. */
+void check_material_beside_links(const Material &material, size_t index, const std::string &where);
 
 /* Throws InputError if a joint of a tree cannot be as it is. */
 void check_joint_of_tree(const Joint &joint, size_t index, const std::string &where);

@@ -469,6 +469,7 @@ void World::Implementation::destroy(std::span<const BodyId> ids)
   const std::vector<uint32_t> joints_of_destroyed = joints_of_bodies(slots_of("destroy_bodies", ids));
   refuse_coupled("destroy_bodies", "it cannot be destroyed", joints_of_destroyed);
   refuse_linked("destroy_bodies", "it cannot be destroyed", slots_of("destroy_bodies", ids));
+  refuse_articulated("destroy_bodies", "its bodies cannot be destroyed", joints_of_destroyed);
   if (ids.empty()) return;
   settle();
   destroy_joints_in(joints_of_destroyed);
@@ -509,6 +510,7 @@ uint32_t World::Implementation::add_material(const Material &material)
   validate(material, scene.materials.size(), "add_material");
   if (scene.materials.size() >= MOST_MATERIALS)
     throw InputError(fmt::format("add_material: there are {} materials; no more are possible", MOST_MATERIALS));
+  if (!scene.articulations.empty()) check_material_beside_links(material, scene.materials.size(), "add_material");
   scene.materials.push_back(material);
   return static_cast<uint32_t>(scene.materials.size() - 1);
 }

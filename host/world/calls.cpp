@@ -186,6 +186,7 @@ void World::Implementation::set_states(std::span<const BodyId> ids, std::span<co
 {
   const std::vector<uint32_t> called = slots_of("set_states", ids);
   check_entries("set_states", ids.size(), states);
+  refuse_bases("set_states", called);
   commands.prepare(2 * ids.size());
   if (settings.sleeping) set_elsewhere.insert(set_elsewhere.end(), called.begin(), called.end());
   for (size_t i = 0; i < ids.size(); ++i) {

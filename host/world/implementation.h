@@ -252,6 +252,7 @@ struct World::Implementation {
   /* --- joints: joints.cpp ---------------------------------------------------------------------------------------- */
   void stage_joint_tables(StagedUploads &uploads, std::span<const uint32_t> order) const;
   void refuse_articulated(const char *call, const char *why, std::span<const uint32_t> joints) const;
+  void refuse_bases(const char *call, std::span<const uint32_t> given) const;
   void refuse_linked(const char *call, const char *why, std::span<const uint32_t> given) const;
   bool is_in_tree(uint32_t joint) const { return joint < links.of_joint.size() && links.of_joint[joint] != no_link; }
   void refuse_joined(const char *call, const char *why, std::span<const uint32_t> given) const;
@@ -277,6 +278,7 @@ struct World::Implementation {
   void write_joint_axes(std::span<const uint32_t> changed, std::vector<Joint> joints);
   void stage_changed_axes(StagedUploads &uploads, std::span<const uint32_t> changed) const;
   void check_joined_bodies(const char *call, size_t entry, const Joint &joint) const;
+  template <class Check> void check_in_world(const Joint &joint, uint32_t slot, const Check &check) const;
   void check_axes(const Joint &joint, uint32_t slot) const;
   std::vector<uint32_t> slots_of_joints(const char *call, std::span<const JointId> ids) const;
   void take_broken_joints();

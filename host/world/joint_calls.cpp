@@ -98,6 +98,15 @@ void World::Implementation::refuse_linked(const char *call, const char *why, std
                                    call_in_message(call, body), body_in_message(body), why));
 }
 
+/* A tree that a body holds stands where the body was when the tables were made. */
+void World::Implementation::refuse_bases(const char *call, std::span<const uint32_t> given) const
+{
+  for (const uint32_t body : given)
+    if (links.has_base(body))
+      throw InputError(fmt::format("{}: body {}: it cannot be moved, because an articulation stands on it",
+                                   call_in_message(call, body), body_in_message(body)));
+}
+
 /* The awake bodies of joints begin their rest anew; those asleep wake. */
 void World::Implementation::disturb_joined(std::span<const Joint> joints)
 {
@@ -320,15 +329,21 @@ JointAxis &axis_of(Joint &joint, uint32_t axis)
 } // namespace
 
 /* Messages of a batch name the world, which is found only where one is needed. */
-void World::Implementation::check_axes(const Joint &joint, uint32_t slot) const
+template <class Check>
+void World::Implementation::check_in_world(const Joint &joint, uint32_t slot, const Check &check) const
 {
   try {
-    validate(scene, joint, slot, "set_joint_axes");
+    check(slot, "set_joint_axes");
   } catch (const InputError &) {
-    if (is_batch())
-      validate(scene, joint, joint_in_message(slot), call_in_message("set_joint_axes", some_body_of(joint)));
+    if (is_batch()) check(joint_in_message(slot), call_in_message("set_joint_axes", some_body_of(joint)));
     throw;
   }
+}
+
+void World::Implementation::check_axes(const Joint &joint, uint32_t slot) const
+{
+  check_in_world(joint, slot,
+                 [&](uint32_t number, const std::string &where) { validate(scene, joint, number, where); });
 }
 
 void World::Implementation::set_joint_axes(std::span<const JointId> ids, std::span<const JointAxisChange> changes)
@@ -351,7 +366,10 @@ void World::Implementation::set_joint_axes(std::span<const JointId> ids, std::sp
   }
   if (ids.empty()) return;
   for (const auto &[slot, k] : of_slot)
-    if (is_in_tree(slot)) check_joint_of_tree(joints[k], slot, "set_joint_axes");
+    if (is_in_tree(slot))
+      check_in_world(joints[k], slot, [&, &joint = joints[k]](uint32_t number, const std::string &where) {
+        check_joint_of_tree(joint, number, where);
+      });
   std::vector<uint32_t> distinct;
   std::vector<Joint> in_order;
   for (const auto &[slot, k] : of_slot) distinct.push_back(slot), in_order.push_back(joints[k]);

@@ -152,6 +152,7 @@ void World::Implementation::set_properties(std::span<const BodyId> ids, std::spa
   if (is_batch()) refuse_joined("set_properties", "its type cannot change in a batch", retyped_by(scene, changed));
   const std::vector<uint32_t> retyped = joints_of_bodies(retyped_by(scene, changed));
   refuse_coupled("set_properties", "the type of its bodies cannot change", retyped);
+  refuse_articulated("set_properties", "the type of its bodies cannot change", retyped);
   refuse_idle_joints(retyped, changed.slots, changed.bodies);
   refuse_for_links(changed.slots, changed.bodies);
   if (ids.empty()) return;
@@ -184,9 +185,9 @@ void World::Implementation::refuse_for_links(std::span<const uint32_t> changed, 
   if (std::none_of(changed.begin(), changed.end(), [&](uint32_t slot) { return links.has_body(slot); })) return;
   for (size_t k = 0; k < changed.size(); ++k) {
     const Body &now = changed_bodies[k], &before = scene.bodies[changed[k]];
-    if (now.type != before.type || now.mass != before.mass || now.inertia != before.inertia ||
-        now.linear_locks != before.linear_locks || now.angular_locks != before.angular_locks)
-      refuse_linked("set_properties", "its type, mass, moments and locks cannot change", changed.subspan(k, 1));
+    if (now.mass != before.mass || now.inertia != before.inertia || now.linear_locks != before.linear_locks ||
+        now.angular_locks != before.angular_locks)
+      refuse_linked("set_properties", "its mass, moments and locks cannot change", changed.subspan(k, 1));
   }
   const PlacedBodies tried(scene, changed, changed_bodies);
   check_articulations(scene, "set_properties");

@@ -3,7 +3,9 @@
 #include <set>
 
 #include <tandem/articulations.h>
+#include <tandem/worlds.h>
 
+#include "host/runtime/memory.h"
 #include "tests/catch.h"
 #include "tests/parity/articulations.h"
 
@@ -334,4 +336,92 @@ TEST_CASE("a link that is put elsewhere comes back to its tree", "[articulations
   world.set_state(world.body_ids()[6], forearm);
   world.step();
   CHECK(open_joints(world).max_distance < 2e-6);
+}
+
+namespace {
+
+/* A fixed box that holds a box on a hinge, which holds another. */
+Scene chain_on_a_base()
+{
+  Scene scene = empty_scene();
+  add_body(scene, BodyType::fixed, box_shape(0.2f, 0.2f, 0.2f), {0, 0, 0});
+  for (int k = 0; k < 2; ++k) {
+    add_body(scene, BodyType::dynamic, box_shape(0.5f, 0.1f, 0.15f), {0.5 + k, 0, 0});
+    connect(scene, JointType::hinge, uint32_t(k), uint32_t(k + 1), {double(k), 0, 0}, Vector::UnitZ());
+  }
+  articulate(scene);
+  return scene;
+}
+
+template <class Call> std::string refusal_of(const Call &call)
+{
+  try {
+    call();
+  } catch (const InputError &error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+} // namespace
+
+TEST_CASE("what a tree stands on, and what contacts of links cannot have, is kept from calls", "[articulations]")
+{
+  World world(chain_on_a_base(), {}, serial);
+  run(world, 5);
+  const uint64_t before = world.state_hash();
+  const BodyId base = world.body_ids()[0];
+  for (const BodyType type : {BodyType::dynamic, BodyType::kinematic})
+    CHECK(refusal_of([&] { world.set_type(base, type); }) ==
+          "set_properties: joint 0: the type of its bodies cannot change, because an articulation has it");
+  CHECK(refusal_of([&] { world.destroy_body(base); }) ==
+        "destroy_bodies: joint 0: its bodies cannot be destroyed, because an articulation has it");
+  CHECK(refusal_of([&] { world.set_state(base, world.bodies()[0]); }) ==
+        "set_states: body 0: it cannot be moved, because an articulation stands on it");
+  Material rolling;
+  rolling.rolling_friction = 0.1f;
+  CHECK_THAT(refusal_of([&] { world.add_material(rolling); }),
+             Catch::Matchers::StartsWith("add_material: material 1: has rolling or spinning friction"));
+  CHECK(world.state_hash() == before);
+  CHECK(World(world.save(), serial).state_hash() == before);
+}
+
+TEST_CASE("tables of joints that no kernel takes have room for all that is written to them", "[articulations]")
+{
+  Scene scene = hanging_chain(45);
+  scene.joints[1].type = JointType::ball;
+  add_body(scene, BodyType::dynamic, sphere_shape(0.1f), {0, 9, 9});
+  World world(scene, {}, serial);
+  const auto ids = world.joint_ids();
+  Joint other;
+  other.body_b = 45;
+  other.position_a = {0, 9, 9};
+  const JointId gone = world.create_joint(other);
+  const JointAxis spring{.stiffness = 200, .damping = 20};
+  world.set_joint_axis(ids[0], 3, spring);
+  world.destroy_joint(gone);
+  const std::vector<JointId> thrice(3, ids[1]);
+  const std::vector<JointAxisChange> changes{{3, spring}, {4, spring}, {5, spring}};
+  world.set_joint_axes(thrice, changes);
+  const size_t joints = world.scene().joints.size(), most_axes = 3;
+  for (const Buffer buffer : {Buffer::joint_axis_kind, Buffer::joint_axis_row, Buffer::cached_joint_axis_impulse}) {
+    const size_t bytes = world.memory().bytes(buffer);
+    CAPTURE(row_of(buffer).name, bytes);
+    CHECK((bytes == 0 || bytes >= joints * most_axes * row_of(buffer).per_item * size_of(row_of(buffer).element)));
+  }
+  run(world, 5);
+  CHECK(std::isfinite(world.precise_bodies()[44].position[1]));
+}
+
+TEST_CASE("a world of a batch takes a tree that is in quarantine from a snapshot", "[articulations]")
+{
+  const Scene scene = load_scene("humanoid");
+  World one(scene, {}, serial);
+  one.set_velocity(one.body_ids()[3], {{3e38f, 0, 0}, {0, 3e38f, 0}});
+  run(one, 5);
+  Worlds worlds(std::vector<Scene>{scene, scene}, {}, serial);
+  worlds.load(0, one.save());
+  worlds.step();
+  one.step();
+  CHECK(worlds.state_hashes()[0] == one.state_hash());
 }
