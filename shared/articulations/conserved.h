@@ -1,4 +1,9 @@
-/* conserved.h - momentum and energy of a tree, which free motion keeps (free_motion.h). */
+/* conserved.h - momentum and energy of a tree, which free motion keeps (free_motion.h).
+ *
+ * What the momentum of a free tree lacks becomes a motion of the tree as one body: on the root alone it would be
+ * without bounds where the root is light. What the energy lacks becomes a factor on the motion besides that of the tree
+ * as one body, which has no momentum.
+ */
 #ifndef TANDEM_SHARED_ARTICULATIONS_CONSERVED_H
 #define TANDEM_SHARED_ARTICULATIONS_CONSERVED_H
 
@@ -22,17 +27,6 @@ SHARED spatial_force momentum_of_tree(const articulation *t)
   }
   return sum;
 }
-SHARED spatial_force sum_of_forces(const articulation *t)
-{
-  spatial_force sum = no_force();
-  for (uint k = 0; k < t->most_links; ++k) {
-    tree_link l = tree_link_of(t, k);
-    spatial_force f = force_at(load_force(t, l.k, (uint)WORK_FORCE), negate(xyz(load_work(t, l.k, (uint)WORK_OFFSET))));
-    sum = choose_force(l.exists, add_forces(sum, f), sum);
-  }
-  return sum;
-}
-
 /* Of a free root; else 0. */
 SHARED vec3 root_velocity(const articulation *t)
 {
@@ -70,11 +64,56 @@ SHARED symmetric6 inertia_of_tree(const articulation *t)
   return sum;
 }
 
-/* The motion that a free tree of this momentum has while its joints stand still; a tree that is held has none. */
-SHARED spatial_motion motion_as_one_body(const articulation *t, spatial_force momentum)
+/* What free motion keeps. drift: the velocity of the centre of mass of a free tree, from which the energy is seen, so
+ * that none of it is lost in that of a tree which is carried along; J. momentum: about the centre of the root. */
+typedef struct {
+  spatial_force momentum;
+  vec3 drift;
+  real energy;
+} conserved;
+
+SHARED real mass_of_tree(const articulation *t)
 {
-  symmetric6 inverse = inverse_of_inertia(inertia_of_tree(t));
-  return choose_motion(tree_link_of(t, 0u).is_free, inverse_times(&inverse, momentum), no_motion());
+  real sum = R(0.0);
+  for (uint k = 0; k < t->most_links; ++k) {
+    tree_link l = tree_link_of(t, k);
+    sum = sum + choose(l.exists, mass_of_link(t, l), (real)R(0.0));
+  }
+  return sum;
+}
+SHARED conserved conserved_of_tree(const articulation *t)
+{
+  conserved c;
+  c.momentum = momentum_of_tree(t);
+  vec3 drift = scale(c.momentum.force, inverse_if_positive(mass_of_tree(t)));
+  c.drift = choose3(tree_link_of(t, 0u).is_free, drift, zero3());
+  c.energy = energy_of_tree(t, c.drift);
+  return c;
+}
+
+/* share: of the energy before. */
+SHARED mask has_changed_energy(const articulation *t, conserved before, real share)
+{
+  real change = magnitude(energy_of_tree(t, before.drift) - before.energy);
+  return !(change <= share * before.energy) & (t->links > 0u);
+}
+
+SHARED void set_root_motion_if(mask wanted, const articulation *t, spatial_motion m)
+{
+  store_state(wanted, t, 0u, (uint)STATE_JOINT_VELOCITY, extend(m.angular, R(0.0)));
+  store_root(wanted, t, (uint)ROOT_LINEAR_VELOCITY, extend(m.linear, R(0.0)));
+}
+
+/* Adds a motion of the tree as one body, given at the centre of the root, which is free. */
+SHARED void carry_tree_if(mask wanted, const articulation *t, spatial_motion whole)
+{
+  for (uint k = 0; k < t->most_links; ++k) {
+    tree_link l = tree_link_of(t, k);
+    spatial_motion m = load_motion(t, l.k, (uint)WORK_VELOCITY);
+    m = add_motions(m, motion_at(whole, xyz(load_work(t, l.k, (uint)WORK_OFFSET))));
+    store_motion(wanted & l.exists, t, l.k, (uint)WORK_VELOCITY, m);
+  }
+  set_root_motion_if(wanted, t, load_motion(t, 0u, (uint)WORK_VELOCITY));
 }
 
 /* m, of which the part beyond `whole` is scaled. */
@@ -91,8 +130,7 @@ SHARED void scale_link_if(mask wanted, const articulation *t, tree_link l, spati
   m = scaled_beyond(m, motion_at(whole, xyz(load_work(t, l.k, (uint)WORK_OFFSET))), factor);
   store_motion(wanted, t, l.k, (uint)WORK_VELOCITY, m);
   vec3 numbers = scale(xyz(load_state(t, l.k, (uint)STATE_JOINT_VELOCITY)), factor);
-  store_state(wanted, t, l.k, (uint)STATE_JOINT_VELOCITY, extend(choose3(l.is_free, m.angular, numbers), R(0.0)));
-  store_root(wanted & l.is_free, t, (uint)ROOT_LINEAR_VELOCITY, extend(m.linear, R(0.0)));
+  store_state(wanted & !l.is_free, t, l.k, (uint)STATE_JOINT_VELOCITY, extend(numbers, R(0.0)));
 }
 
 /* What of the energy is in motion within the tree, below this share is nothing but rounding. */
@@ -114,20 +152,42 @@ SHARED void scale_links_if(mask wanted, const articulation *t, spatial_motion wh
     tree_link l = tree_link_of(t, k);
     scale_link_if(wanted & l.exists, t, l, whole, factor);
   }
+  mask free = wanted & tree_link_of(t, 0u).is_free;
+  set_root_motion_if(free, t, load_motion(t, 0u, (uint)WORK_VELOCITY));
 }
 
-/* Scales the motion within the tree, which has no momentum, so that the energy is what it was. Where the momentum alone
+/* drifts: the motion of the tree as it drifts. turns: what the tree as one body does besides. Where the latter alone
  * has more energy than there was, in a shape that the tree cannot have reached, the momentum gives way. */
-SHARED void hold_energy_if(mask wanted, const articulation *t, spatial_force momentum, real energy)
+SHARED void hold_energy_if(mask wanted, const articulation *t, conserved kept, spatial_motion drifts,
+                           spatial_motion turns, real of_turns)
 {
-  spatial_motion whole = motion_as_one_body(t, momentum);
-  real of_whole = choose(tree_link_of(t, 0u).is_free, R(0.5) * power_of(momentum, whole), (real)R(0.0));
-  real within = energy_of_tree(t, zero3()) - of_whole;
-  mask scales = wanted & (within > LEAST_ENERGY_WITHIN * of_whole);
-  scale_links_if(scales, t, whole, factor_of_energies(within, energy - of_whole));
-  real now = energy_of_tree(t, zero3());
-  mask exceeds = wanted & (now > (R(1.0) + LEAST_ENERGY_WITHIN) * energy);
-  if (any_of(exceeds)) scale_links_if(exceeds, t, no_motion(), factor_of_energies(now, energy));
+  real within = energy_of_tree(t, kept.drift) - of_turns;
+  mask scales = wanted & (within > LEAST_ENERGY_WITHIN * of_turns);
+  scale_links_if(scales, t, add_motions(drifts, turns), factor_of_energies(within, kept.energy - of_turns));
+  real now = energy_of_tree(t, kept.drift);
+  mask exceeds = wanted & (now > (R(1.0) + LEAST_ENERGY_WITHIN) * kept.energy);
+  if (any_of(exceeds)) scale_links_if(exceeds, t, drifts, factor_of_energies(now, kept.energy));
+}
+
+/* A substep that changes so little of the energy has the errors of a symmetric rule, which do not add up. */
+#define LARGEST_CHANGE_IN_SUBSTEP R(2e-4)
+
+/* kept: before the motion, the momentum about where the centre of the root is now. */
+SHARED void conserve(const articulation *t, conserved kept)
+{
+  mask free = tree_link_of(t, 0u).is_free & (t->links > 0u);
+  spatial_motion drifts = no_motion(), turns = no_motion();
+  real of_turns = R(0.0);
+  if (any_of(free)) {
+    symmetric6 inertia = inertia_of_tree(t), inverse = inverse_of_inertia(inertia);
+    carry_tree_if(free, t, inverse_times(&inverse, subtract_forces(kept.momentum, momentum_of_tree(t))));
+    drifts.linear = kept.drift;
+    spatial_force rest = subtract_forces(kept.momentum, inertia_times(&inertia, drifts));
+    turns = choose_motion(free, inverse_times(&inverse, rest), no_motion());
+    of_turns = choose(free, R(0.5) * power_of(rest, turns), of_turns);
+  }
+  mask changed = has_changed_energy(t, kept, LARGEST_CHANGE_IN_SUBSTEP);
+  if (any_of(changed)) hold_energy_if(changed, t, kept, drifts, turns, of_turns);
 }
 
 #endif

@@ -9,10 +9,8 @@
  * 2006). The first half defines u by itself and is iterated; each of its rounds reduces the error by the angle of a
  * turn in half a substep.
  *
- * A free root keeps the momentum of the tree to rounding: the last impulse on it is what the momentum before lacks.
- *
- * Trees that turn too fast for the rounds to converge skip the first half, and their energy is held by a factor on the
- * velocities within the tree (conserved.h), so no speed makes them fly apart.
+ * Trees that turn too fast for the rounds to converge skip the first half. Last, momentum and energy become what they
+ * were (conserved.h), so no speed makes a tree fly apart.
  */
 #ifndef TANDEM_SHARED_ARTICULATIONS_FREE_MOTION_H
 #define TANDEM_SHARED_ARTICULATIONS_FREE_MOTION_H
@@ -74,15 +72,9 @@ SHARED void first_half(const articulation *t, real h)
   }
 }
 
-/* momentum: what the tree must have, about the centre of a free root. */
-SHARED void second_half(const articulation *t, spatial_force momentum, real h)
+SHARED void second_half(const articulation *t, real h)
 {
   load_inertial_forces(t, R(0.5) * h);
-  tree_link root = tree_link_of(t, 0u);
-  if (any_of(root.is_free)) {
-    spatial_force lacks = subtract_forces(subtract_forces(momentum, momentum_of_tree(t)), sum_of_forces(t));
-    add_to_force(root.exists & root.is_free, t, 0u, (uint)WORK_FORCE, lacks);
-  }
   push_all_links(t);
   settle_tree(t);
 }
@@ -97,28 +89,21 @@ SHARED void prepare_tree(const articulation *t, real h)
   clear_pending(t);
 }
 
-/* Whether the energy within the tree, of which half a substep should change next to nothing, says that the rounds did
- * not converge. */
-#define LARGEST_CHANGE_OF_ENERGY R(0.02)
-SHARED mask is_too_fast(const articulation *t, real before)
-{
-  real change = magnitude(energy_of_tree(t, root_velocity(t)) - before);
-  return !(change <= LARGEST_CHANGE_OF_ENERGY * before) & (t->links > 0u);
-}
+/* The rounds did not converge if half a substep, which should change next to nothing of the energy, changes so much. */
+#define LARGEST_CHANGE_IN_HALF R(0.02)
 
 SHARED void move_tree_freely(const articulation *t, real h)
 {
-  spatial_force momentum = momentum_of_tree(t);
-  real energy = energy_of_tree(t, zero3()), within = energy_of_tree(t, root_velocity(t));
+  conserved kept = conserved_of_tree(t);
   first_half(t, h);
-  mask fast = is_too_fast(t, within);
+  mask fast = has_changed_energy(t, kept, LARGEST_CHANGE_IN_HALF);
   if (any_of(fast)) return_velocities_if(fast, t);
   vec3 way = scale(root_velocity(t), h); /* of the root; a difference of positions would depend on where the tree is */
   advance_joints(t, h);
-  momentum = force_at(momentum, way);
+  kept.momentum = force_at(kept.momentum, way);
   prepare_tree(t, h);
-  second_half(t, momentum, h);
-  if (any_of(fast)) hold_energy_if(fast, t, momentum, energy);
+  second_half(t, h);
+  conserve(t, kept);
 }
 
 #endif

@@ -8,6 +8,7 @@
 #include "host/runtime/memory.h"
 #include "tests/catch.h"
 #include "tests/parity/articulations.h"
+#include "tests/physics/articulate.h"
 
 using namespace tandem;
 using namespace tandem::physics_tests;
@@ -17,14 +18,6 @@ namespace {
 const Placement serial{"serial", {}, false};
 
 /* Makes all joints one tree. */
-void articulate(Scene &scene, uint32_t root = no_body)
-{
-  Articulation tree;
-  tree.root = root;
-  for (uint32_t k = 0; k < scene.joints.size(); ++k) tree.joints.push_back(k);
-  scene.articulations = {tree};
-}
-
 Scene without_gravity()
 {
   Scene scene = empty_scene();
@@ -160,30 +153,6 @@ TEST_CASE("articulated humanoids stand while they are driven, and fall when they
     for (const auto &body : limp.precise_bodies()) REQUIRE(body.position[1] > -0.02);
   }
   CHECK(head_of(limp) < 0.4);
-}
-
-TEST_CASE("free articulations keep their momentum to 1e-5 of that of their links, whatever drives their joints",
-          "[articulations]")
-{
-  for (uint64_t seed = 1; seed < 5; ++seed) {
-    Scene scene = parity::tree_crowd(seed, 12, 0);
-    scene.gravity = {0, 0, 0};
-    std::erase_if(scene.articulations, [](const Articulation &tree) { return tree.root == no_body; });
-    for (Body &body : scene.bodies) body.filter_mask = 0;
-    Scene free = scene;
-    std::erase_if(free.joints, [](const Joint &joint) { return joint.body_a == no_body || joint.body_b == no_body; });
-    if (free.joints.size() != scene.joints.size()) continue;
-    Random random(seed);
-    for (Body &body : scene.bodies)
-      if (body.type == BodyType::dynamic) body.linear_velocity = vec3_of(direction(random));
-    World world(scene, {}, serial);
-    world.step(); /* bodies move as their joints can from now on */
-    const Momentum before = momentum_of(world);
-    run(world, 120);
-    const Momentum after = momentum_of(world);
-    CHECK((after.linear - before.linear).norm() < 1e-5 * before.linear_scale);
-    CHECK((after.angular - before.angular).norm() < 1e-5 * before.angular_scale);
-  }
 }
 
 TEST_CASE("forces and impulses on a link push the whole tree", "[articulations]")
