@@ -76,10 +76,11 @@ TEST_CASE("free articulations keep their momentum to 1e-5 of that of their links
 
 TEST_CASE("free trees that turn fast keep energy and momentum", "[articulations]")
 {
-  for (const double speed : {5.0, 20.0})
+  for (const double speed : {5.0, 20.0, 100.0})
     for (uint64_t seed = 1; seed <= 8; ++seed) {
       CAPTURE(speed, seed);
-      World world(turning_tree(seed, seed % 2 ? 4 : 8, speed), {}, alone);
+      const Settings settings = settings_with(1.0 / 60, speed > 20 ? 16 : 4);
+      World world(turning_tree(seed, seed % 2 ? 4 : 8, speed), settings, alone);
       world.step();
       const Momentum before = momentum_of(world);
       const double energy = world.statistics().kinetic_energy;
@@ -89,7 +90,7 @@ TEST_CASE("free trees that turn fast keep energy and momentum", "[articulations]
       }
       const Momentum after = momentum_of(world);
       CHECK((after.linear - before.linear).norm() < 1e-4 * before.linear_scale);
-      CHECK((after.angular - before.angular).norm() < 0.01 * before.angular_scale);
+      CHECK((after.angular - before.angular).norm() < (speed > 20 ? 0.1 : 0.01) * before.angular_scale);
     }
 }
 
