@@ -14,6 +14,17 @@ bool is_sized_by_writes(Buffer buffer)
   return index_of(buffer) >= buffer_count && row_of(buffer).capacity == Capacity::NOTHING;
 }
 
+namespace {
+
+/* What is carried for joints that no kernel takes belongs to joints that are gone; others would begin with it. */
+bool is_of_joints(Buffer buffer)
+{
+  const Capacity capacity = row_of(buffer).capacity;
+  return is_carried(row_of(buffer).lifetime) && (capacity == Capacity::JOINTS || capacity == Capacity::JOINT_AXES);
+}
+
+} // namespace
+
 /* If one side of a carried buffer is touched, both are needed. */
 void StepBuffers::take_needs(Recorder recorder)
 {
@@ -41,7 +52,7 @@ size_t StepBuffers::wanted_bytes(Buffer buffer, const Sizes &sizes) const
 /* What is there though no kernel takes it now is written with all others of its kind, so it has room for them. */
 size_t StepBuffers::written_bytes(Buffer buffer, const Sizes &sizes) const
 {
-  return memory_.bytes(buffer) > 0 ? bytes_of(buffer, sizes) : wanted_bytes(buffer, sizes);
+  return memory_.bytes(buffer) > 0 && !is_of_joints(buffer) ? bytes_of(buffer, sizes) : wanted_bytes(buffer, sizes);
 }
 
 void StepBuffers::keep_after_steps(Buffer buffer)
@@ -79,8 +90,10 @@ void StepBuffers::allocate(const Sizes &sizes)
     else if (!is_carried(lifetime)) memory_.resize(buffer, wanted_bytes(buffer, sizes));
   }
   for (const CarriedBuffer &buffer : carried_) memory_.resize(buffer.previous, wanted_bytes(buffer.previous, sizes));
-  for (const CarriedBuffer &buffer : carried_)
-    if (const size_t bytes = written_bytes(buffer.now, sizes)) memory_.fit(buffer.now, bytes);
+  for (const CarriedBuffer &buffer : carried_) {
+    const size_t bytes = written_bytes(buffer.now, sizes);
+    if (bytes > 0 || is_of_joints(buffer.now)) memory_.fit(buffer.now, bytes);
+  }
   if (shares_) memory_.share(tenancies_of(needs_.spans, memory_, apart()));
 }
 

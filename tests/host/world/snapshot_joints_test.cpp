@@ -81,3 +81,27 @@ TEST_CASE("joints of a snapshot sleep with their bodies, whoever sealed it", "[a
   std::memcpy(&joined[ends + 2 * sizeof(uint32_t) + 1], &other, sizeof other);
   CHECK_THAT(complaint_about(joined), ContainsSubstring("the bodies of joint 2 do not sleep in one island"));
 }
+
+TEST_CASE("a world whose joint with a spring came and went is what its snapshot makes")
+{
+  for (const bool steps_between : {false, true}) {
+    Scene scene = empty_scene();
+    for (int k = 0; k < 2; ++k)
+      add_body(scene, BodyType::dynamic, box_shape(0.2f, 0.1f, 0.1f), {0.42 * k, 5, 0}).filter_mask = 0;
+    connect(scene, JointType::ball, 0, 1, {0.21, 5, 0});
+    World world(scene, {}, {"serial", {}});
+    world.step();
+    Joint hinge;
+    hinge.type = JointType::hinge;
+    hinge.body_a = 0, hinge.body_b = 1;
+    hinge.rotations[0].stiffness = 3;
+    const JointId gone = world.create_joint(hinge);
+    run(world, steps_between);
+    world.destroy_joint(gone);
+    run(world, steps_between);
+    World restored(world.save(), {"serial", {}});
+    CHECK(restored.state_hash() == world.state_hash());
+    for (World *each : {&world, &restored}) each->create_joint(hinge), run(*each, 2);
+    CHECK(restored.state_hash() == world.state_hash());
+  }
+}
