@@ -129,8 +129,10 @@ enum {
   WORLD_COLOR_START = COLOR_START + COLOR_ENTRIES,
   /* The ranges of the joints sorted by colour, stored as those of COLOR_START; set by the host. */
   JOINT_COLOR_START = WORLD_COLOR_START + (int)COLOR_LIMIT,
+  /* The same of the joints that hold links (articulations/joint.h), which begin where the overflow joints end. */
+  LINK_JOINT_COLOR_START = JOINT_COLOR_START + COLOR_ENTRIES - 1,
   /* The same of the couplings. */
-  COUPLING_COLOR_START = JOINT_COLOR_START + COLOR_ENTRIES,
+  COUPLING_COLOR_START = LINK_JOINT_COLOR_START + COLOR_ENTRIES,
   /* Of each colour, the first contact of a link: articulations/colors.h. */
   LINK_COLOR_START = COUPLING_COLOR_START + COLOR_ENTRIES,
   COUNT_TOTAL = LINK_COLOR_START + (int)COLOR_LIMIT

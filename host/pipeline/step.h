@@ -38,14 +38,15 @@ struct StepPlan {
   bool sleepers = false;            /* some bodies sleep */
   bool other_sleepers = false;      /* than in their table, which the step makes anew */
   uint32_t island_rounds = 4;
-  uint32_t colors = 16; /* up to COLOR_LIMIT + 1: the overflow constraints */
-  uint32_t joint_colors = 0; /* COLOR_LIMIT + 1: there are overflow joints */
-  uint32_t coupling_colors = 0; /* the same of couplings */
+  uint32_t colors = 16;           /* up to COLOR_LIMIT + 1: the overflow constraints */
+  uint32_t joint_colors = 0;      /* COLOR_LIMIT + 1: there are overflow joints */
+  uint32_t link_joint_colors = 0; /* the same of joints that hold links */
+  uint32_t coupling_colors = 0;   /* the same of couplings */
   uint32_t rounds = 16;
   SettledColors settled;
-  bool apart = false;     /* no pair was found for so long that a step looks for pairs alone */
-  SubstepChoice substeps; /* if the world chooses them itself */
-  uint32_t hits = 0;      /* that a cast has left on the device for kernels of modules */
+  bool apart = false;                        /* no pair was found for so long that a step looks for pairs alone */
+  SubstepChoice substeps;                    /* if the world chooses them itself */
+  uint32_t hits = 0;                         /* that a cast has left on the device for kernels of modules */
   std::array<uint32_t, COUNT_TOTAL> known{}; /* counts after the last step */
 };
 

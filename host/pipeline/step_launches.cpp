@@ -66,9 +66,17 @@ void StepLaunches::for_each_color_with_joints(Kernel joints, Kernel constraints,
   }
 }
 
+void StepLaunches::solve_link_joints(uint32_t pass)
+{
+  for (uint32_t color = 0; color < std::min(plan_.link_joint_colors, COLOR_LIMIT); ++color)
+    run_range(Kernel::solve_link_joints, LINK_JOINT_COLOR_START + color, LINK_JOINT_COLOR_START + color + 1, {pass});
+  if (plan_.link_joint_colors > COLOR_LIMIT) run(Kernel::solve_link_joints_in_order, {pass});
+}
+
 void StepLaunches::for_each_link_color(uint32_t pass)
 {
   if (!has_links()) return;
+  if (pass != PASS_BOUNCING) solve_link_joints(pass);
   for (uint32_t color = 0; color < std::min(plan_.colors, LINK_COLORS); ++color)
     run_range(Kernel::solve_link_contacts, LINK_COLOR_START + color, COLOR_START + color + 1, {pass});
   if (plan_.colors > LINK_COLORS) run(Kernel::solve_link_contacts_in_order, {pass});
@@ -85,7 +93,7 @@ void StepLaunches::for_each_joint_color(Kernel joints, Kernel overflow)
 void StepLaunches::run_overflow_joints(Kernel kernel, const Values &values)
 {
   if (plan_.joint_colors <= COLOR_LIMIT) return;
-  if (has(FEATURE_WORLDS)) run_range(kernel, JOINT_COLOR_START + COLOR_OVERFLOW, COUNT_JOINTS, values);
+  if (has(FEATURE_WORLDS)) run_range(kernel, JOINT_COLOR_START + COLOR_OVERFLOW, LINK_JOINT_COLOR_START, values);
   else run(kernel, values);
 }
 

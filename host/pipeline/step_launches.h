@@ -42,7 +42,7 @@ public:
   void for_each_color_with_joints(Kernel joints, Kernel constraints, const Values &values = {});
   /* Launches a kernel of joints alone once for each colour, and another one for those beyond, if there are some. */
   void for_each_joint_color(Kernel joints, Kernel overflow);
-  /* Solves the contacts of links colour by colour, then the rows of their joints. */
+  /* Solves the joints that hold links and the contacts of links, colour by colour, then the rows of their trees. */
   void for_each_link_color(uint32_t pass);
   /* Launches a kernel over the overflow joints, if there are some: in a batch, an item starts at each of them. */
   void run_overflow_joints(Kernel kernel, const Values &values = {});
@@ -71,6 +71,7 @@ public:
 
 private:
   void launch_color(Kernel kernel, uint32_t color, const Values &values);
+  void solve_link_joints(uint32_t pass);
 
   Launcher &launcher_;
   const StepPlan &plan_;

@@ -39,58 +39,81 @@ std::array<float4, LINK_ROWS - LINK_MOMENTS> axis_rows_of(const Scene &scene, co
           axis_row[2]};
 }
 
-/* The tables while links are added. */
-struct LinkTables {
-  std::vector<uint32_t> code, body, place, body_link;
-  std::vector<float4> row, ground;
+std::vector<uint32_t> lengths_of(const std::vector<std::vector<OrderedLink>> &trees)
+{
+  std::vector<uint32_t> lengths;
+  for (const std::vector<OrderedLink> &links : trees) lengths.push_back(static_cast<uint32_t>(links.size()));
+  return lengths;
+}
 
-  explicit LinkTables(size_t room)
+/* The tables of all trees. */
+class LinkTables {
+public:
+  LinkTables(const Scene &scene, const std::vector<std::vector<OrderedLink>> &trees, size_t room)
+      : scene_(scene), trees_(trees), places_(tree_places(lengths_of(trees)))
   {
-    for (uint32_t index = 0; index < room; ++index) body_link.insert(body_link.end(), {index, INDEX_NONE, 0});
+    for (uint32_t index = 0; index < room; ++index) body_link_.insert(body_link_.end(), {index, INDEX_NONE, 0});
+    size_t links = 0;
+    for (const TreePlace &place : places_) links += place.links;
+    code_.resize(links);
+    body_.resize(links);
+    row_.resize(links * LINK_ROWS);
   }
 
   /* A tree of which a link is in quarantine has no links for kernels. */
-  void add(const Scene &scene, const std::vector<OrderedLink> &links, std::span<const uint32_t> index_of_body,
-           const std::vector<BodyStatus> &status)
+  void add(uint32_t number, std::span<const uint32_t> index_of_body, const std::vector<BodyStatus> &status)
   {
-    const auto number = static_cast<uint32_t>(place.size() / 4);
+    const std::vector<OrderedLink> &links = trees_[number];
+    const TreePlace &place = places_[number];
     const bool is_out = std::any_of(links.begin(), links.end(), [&](const OrderedLink &l) {
       return l.link.body < status.size() && status[l.link.body] == BodyStatus::quarantined;
     });
-    const auto count = is_out ? 0u : static_cast<uint32_t>(links.size());
-    place.insert(place.end(), {static_cast<uint32_t>(code.size()), 0, 1, count});
+    place_.insert(place_.end(), {place.block, place.item, place.stride, is_out ? 0 : place.links});
     const auto node = index_of_body[links.front().link.body];
     for (uint32_t k = 0; k < links.size(); ++k) {
       const uint32_t index = index_of_body[links[k].link.body];
-      body.push_back(index);
+      body_[place.row(1, k, 0)] = index;
       const std::array<uint32_t, LINK_WORDS> words{node, number, k};
-      std::copy(words.begin(), words.end(), body_link.begin() + ptrdiff_t{LINK_WORDS} * index);
-      add_link(scene, links[k], k == 0);
+      std::copy(words.begin(), words.end(), body_link_.begin() + ptrdiff_t{LINK_WORDS} * index);
+      add_link(place, k, links[k]);
     }
   }
   void stage(StagedUploads &uploads)
   {
-    uploads.add(Buffer::link_code, std::move(code));
-    uploads.add(Buffer::link_row, std::move(row));
-    uploads.add(Buffer::link_body, std::move(body));
-    uploads.add(Buffer::articulation_place, std::move(place));
-    uploads.add(Buffer::articulation_ground, std::move(ground));
-    uploads.add(Buffer::body_link, std::move(body_link));
+    uploads.add(Buffer::link_code, std::move(code_));
+    uploads.add(Buffer::link_row, std::move(row_));
+    uploads.add(Buffer::link_body, std::move(body_));
+    uploads.add(Buffer::articulation_place, std::move(place_));
+    uploads.add(Buffer::articulation_ground, std::move(ground_));
+    uploads.add(Buffer::body_link, std::move(body_link_));
   }
 
 private:
-  void add_link(const Scene &scene, const OrderedLink &l, bool is_root)
+  void add_link(const TreePlace &place, uint32_t k, const OrderedLink &l)
   {
-    const LinkRows rows = rows_of_link(scene, l);
-    code.push_back(rows.code);
-    for (size_t k = 0; k < LINK_MOMENTS; ++k) row.push_back(float4_of(rows.numbers[k]));
-    const auto axis = axis_rows_of(scene, l.axis, l.link.body);
-    row.insert(row.end(), axis.begin(), axis.end());
-    if (!is_root) return;
+    const LinkRows rows = rows_of_link(scene_, l);
+    code_[place.row(1, k, 0)] = rows.code;
+    for (size_t row = 0; row < LINK_MOMENTS; ++row) row_[place.row(LINK_ROWS, k, row)] = float4_of(rows.numbers[row]);
+    const auto axis = axis_rows_of(scene_, l.axis, l.link.body);
+    for (size_t row = 0; row < axis.size(); ++row) row_[place.row(LINK_ROWS, k, LINK_MOMENTS + row)] = axis[row];
+    if (k > 0) return;
     const auto position = double_float3_of(rows.ground);
-    ground.insert(ground.end(), position.begin(), position.end());
+    ground_.insert(ground_.end(), position.begin(), position.end());
   }
+
+  const Scene &scene_;
+  const std::vector<std::vector<OrderedLink>> &trees_;
+  std::vector<TreePlace> places_;
+  std::vector<uint32_t> code_, body_, place_, body_link_;
+  std::vector<float4> row_, ground_;
 };
+
+void check_joint_at_link(const Joint &joint, size_t index, const std::string &where)
+{
+  for (const UsedAxis &used : axes_used_by(joint))
+    if (used.axis.restitution > 0)
+      refuse(where, label("joint", index, joint.name), "has a limit that bounces; joints that hold links have none");
+}
 
 /* Refuses what a link, or the joint of one, cannot have within a step. */
 class LinkChecks {
@@ -112,22 +135,27 @@ public:
   void check_others() const
   {
     for (size_t k = 0; k < scene_.joints.size(); ++k)
-      for (const uint32_t body : {scene_.joints[k].body_a, scene_.joints[k].body_b})
-        if (!joints_[k] && !is_vacant(scene_.joints[k]) && body != no_body && linked_[body])
-          refuse(where_, label("joint", k, scene_.joints[k].name),
-                 fmt::format("holds body {}, a link, and is no joint of its articulation; only contacts push links "
-                             "besides",
-                             body));
+      if (!joints_[k] && holds_a_link(scene_.joints[k])) check_joint_at_link(scene_.joints[k], k, where_);
     for (size_t k = 0; k < scene_.couplings.size(); ++k)
-      for (const uint32_t joint : {scene_.couplings[k].joint_a, scene_.couplings[k].joint_b})
-        if (joints_[joint])
-          refuse(
-              where_, label("coupling", k, scene_.couplings[k].name),
-              fmt::format("couples joint {}, which is one of an articulation; couplings are of other joints", joint));
+      for (const uint32_t joint : {scene_.couplings[k].joint_a, scene_.couplings[k].joint_b}) check_coupled(k, joint);
     for (size_t k = 0; k < scene_.materials.size(); ++k) check_material_beside_links(scene_.materials[k], k, where_);
   }
 
 private:
+  bool holds_a_link(const Joint &joint) const
+  {
+    const auto is_link = [&](uint32_t body) { return body != no_body && linked_[body]; };
+    return !is_vacant(joint) && (is_link(joint.body_a) || is_link(joint.body_b));
+  }
+  void check_coupled(size_t coupling, uint32_t joint) const
+  {
+    const char *const what = joints_[joint]                       ? "is one of an articulation"
+                             : holds_a_link(scene_.joints[joint]) ? "holds a link"
+                                                                  : nullptr;
+    if (what != nullptr)
+      refuse(where_, label("coupling", coupling, scene_.couplings[coupling].name),
+             fmt::format("couples joint {}, which {}; couplings are of other joints", joint, what));
+  }
   [[noreturn]] void fail(const std::string &what, const std::string &why) const
   {
     const std::string name =
@@ -179,6 +207,7 @@ JointedLinks links_of(const Scene &scene)
   JointedLinks links;
   if (scene.articulations.empty()) return links;
   links.of_joint.assign(scene.joints.size(), no_link);
+  links.number_of_joint.assign(scene.joints.size(), 0);
   links.body_of_joint.assign(scene.joints.size(), no_body);
   links.of_body.assign(scene.bodies.size(), no_link);
   links.bases.resize(scene.bodies.size());
@@ -187,7 +216,8 @@ JointedLinks links_of(const Scene &scene)
     for (const OrderedLink &l : ordered_links_of(scene, articulation, scene.name)) {
       if (l.link.joint != ArticulationLink::none) {
         if (l.link.parent == ArticulationLink::none) note_base(scene.joints[l.link.joint], l.link.body, links);
-        links.of_joint[l.link.joint] = links.count;
+        links.of_joint[l.link.joint] = static_cast<uint32_t>(links.trees.size() - 1);
+        links.number_of_joint[l.link.joint] = static_cast<uint32_t>(links.trees.back().size());
         links.body_of_joint[l.link.joint] = l.link.body;
       }
       links.of_body[l.link.body] = static_cast<uint32_t>(links.trees.size() - 1);
@@ -195,7 +225,16 @@ JointedLinks links_of(const Scene &scene)
       ++links.count;
     }
   }
+  std::vector<uint32_t> lengths;
+  for (const std::vector<uint32_t> &bodies : links.trees) lengths.push_back(static_cast<uint32_t>(bodies.size()));
+  links.places = tree_places(lengths);
   return links;
+}
+
+bool holds_link(const JointedLinks &links, const Joint &joint)
+{
+  const auto is_link = [&](uint32_t body) { return body != no_body && links.has_body(body); };
+  return is_link(joint.body_a) || is_link(joint.body_b);
 }
 
 void stage_link_axes(StagedUploads &uploads, const Scene &scene, std::span<const uint32_t> joints,
@@ -204,8 +243,10 @@ void stage_link_axes(StagedUploads &uploads, const Scene &scene, std::span<const
   const auto stage = [&](uint32_t joint) {
     if (links.of_joint[joint] == no_link) return;
     const auto rows = axis_rows_of(scene, axis_of_tree(scene.joints[joint]), links.body_of_joint[joint]);
-    uploads.add_elements(Buffer::link_row, std::vector<float4>(rows.begin(), rows.end()),
-                         size_t{links.of_joint[joint]} * LINK_ROWS + LINK_MOMENTS);
+    const TreePlace &place = links.places[links.of_joint[joint]];
+    for (size_t row = 0; row < rows.size(); ++row)
+      uploads.add_elements(Buffer::link_row, std::vector<float4>{rows[row]},
+                           place.row(LINK_ROWS, links.number_of_joint[joint], LINK_MOMENTS + row));
   };
   for (const uint32_t joint : joints) stage(joint);
   if (!joints.empty()) return;
@@ -219,14 +260,18 @@ void check_material_beside_links(const Material &material, size_t index, const s
            "has rolling or spinning friction, and the scene has articulations; contacts of links have neither");
 }
 
+void check_joint_beside_links(const JointedLinks &links, const Joint &joint, size_t index, const std::string &where)
+{
+  if (holds_link(links, joint)) check_joint_at_link(joint, index, where);
+}
+
 void check_joint_of_tree(const Joint &joint, size_t index, const std::string &where)
 {
   const Checker check{where, "joint", index, joint.name};
   if (!joint.enabled) check.fail("is not enabled; joints of a tree always are");
   if (joint.break_force < JointAxis::unlimited || joint.break_torque < JointAxis::unlimited)
     check.fail("can break; joints of a tree do not");
-  for (const UsedAxis &used : axes_used_by(joint))
-    if (used.axis.restitution > 0) check.fail("has a limit that bounces; those of a tree do not");
+  check_joint_at_link(joint, index, where);
   if (joint.type == JointType::ball) check_ball_of_tree(joint, index, where);
 }
 
@@ -257,9 +302,11 @@ void check_articulations(const Settings &settings, const Scene &scene)
 void stage_articulations(StagedUploads &uploads, const Scene &scene, std::span<const uint32_t> index_of_body,
                          size_t room, const std::vector<BodyStatus> &status)
 {
-  LinkTables tables(room);
+  std::vector<std::vector<OrderedLink>> trees;
   for (const Articulation &articulation : scene.articulations)
-    tables.add(scene, ordered_links_of(scene, articulation, scene.name), index_of_body, status);
+    trees.push_back(ordered_links_of(scene, articulation, scene.name));
+  LinkTables tables(scene, trees, room);
+  for (uint32_t number = 0; number < trees.size(); ++number) tables.add(number, index_of_body, status);
   tables.stage(uploads);
 }
 

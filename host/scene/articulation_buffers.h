@@ -12,6 +12,7 @@
 
 #include "host/scene/body_status.h"
 #include "host/scene/staged_uploads.h"
+#include "host/scene/tree_places.h"
 
 namespace tandem {
 
@@ -22,10 +23,12 @@ std::vector<bool> articulated_joints(const Scene &scene);
 constexpr uint32_t no_link = 0xffffffffu;
 struct JointedLinks {
   uint32_t count = 0;
-  std::vector<uint32_t> of_joint, body_of_joint; /* by joint of the scene: its link, and the body of that; or no_link */
-  std::vector<std::vector<uint32_t>> trees;      /* the bodies of each articulation */
-  std::vector<uint32_t> of_body;                 /* by body of the scene: its articulation, or no_link */
-  std::vector<bool> bases;                       /* by body: whether a tree stands on it */
+  /* By joint of the scene: its articulation, or no_link; the number of its link in that, and the body of the link. */
+  std::vector<uint32_t> of_joint, number_of_joint, body_of_joint;
+  std::vector<std::vector<uint32_t>> trees; /* the bodies of each articulation */
+  std::vector<uint32_t> of_body;            /* by body of the scene: its articulation, or no_link */
+  std::vector<bool> bases;                  /* by body: whether a tree stands on it */
+  std::vector<TreePlace> places;            /* by articulation */
 
   bool has_base(uint32_t body) const { return body < bases.size() && bases[body]; }
   bool has_body(uint32_t body) const { return body < of_body.size() && of_body[body] != no_link; }
@@ -33,8 +36,13 @@ struct JointedLinks {
 /* The articulations have been validated. */
 JointedLinks links_of(const Scene &scene);
 
+bool holds_link(const JointedLinks &links, const Joint &joint);
+
 /* Throws InputError if contacts of links cannot have the material. */
 void check_material_beside_links(const Material &material, size_t index, const std::string &where);
+
+/* Throws InputError if a joint that is none of a tree's cannot hold a link as it is. */
+void check_joint_beside_links(const JointedLinks &links, const Joint &joint, size_t index, const std::string &where);
 
 /* Throws InputError if a joint of a tree cannot be as it is. */
 void check_joint_of_tree(const Joint &joint, size_t index, const std::string &where);

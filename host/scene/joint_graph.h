@@ -5,7 +5,10 @@
  * contacts take what is left. Joints of a body that has all colours in use are overflow joints: a colour behind all
  * others, solved in order.
  *
- *   colour 0 | hinge hinge slider | colour 1 | ball hinge | ... | overflow
+ *   colour 0 | hinge hinge slider | colour 1 | ball hinge | ... | overflow | of links: colour 0 | ... | overflow
+ *
+ * Joints that hold links of articulations from outside of their trees are solved besides contacts, not among them
+ * (shared/articulations/joint.h), so they have colours of their own, where a tree is one node.
  *
  * Joints that are not enabled have no colour and stand behind all others, where no kernel of a step looks.
  *
@@ -26,9 +29,11 @@ struct JointGraph {
   std::vector<uint32_t> in_trees;    /* joints of articulations, which have no colour */
   std::vector<uint32_t> order;       /* joints of the scene by colour; of one colour by type, then by number; those that
                                         are not enabled last */
-  std::vector<uint32_t> starts;      /* in that order: the first of each colour, of the overflow joints, and the end */
+  std::vector<uint32_t> starts;      /* in that order: the first of each colour and of the overflow joints; the same of
+                                        those that hold links, which begin where these end; and the end */
   std::vector<uint32_t> body_colors; /* two words a body of the scene: a bit for each colour in use */
   uint32_t colors = 0;               /* in use; COLOR_LIMIT + 1 if there are overflow joints */
+  uint32_t link_colors = 0;          /* the same of joints that hold links */
   uint32_t axes = 0;                 /* the most that a joint limits, drives or brakes */
   /* The size of the table of pairs that do not collide (shared/broadphase/joined_pairs.h): a power of two, or 0 if
    * there are none. */

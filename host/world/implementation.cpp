@@ -72,6 +72,7 @@ World::Implementation::Implementation(Beginning beginning, const Placement &plac
   plan.bodies = beginning.room;
   scene_entries = entries_of({special.awake, special.unbounded, special.large, bodies() - special.awake});
   plan.joint_colors = joint_order.colors();
+  plan.link_joint_colors = joint_order.link_colors();
   plan.coupling_colors = coupling_graph.colors;
   counted_bodies = special.awake;
   plan.capacity_cells = cells_for(plan.bodies);
@@ -144,6 +145,7 @@ void World::Implementation::record_kernels()
   StepPlan all = plan;
   all.colors = std::max(plan.colors, COLOR_LIMIT);
   all.joint_colors = joint_graph.colors; /* whoever sleeps */
+  all.link_joint_colors = joint_graph.link_colors;
   all.substeps.starts = all.substeps.automatic;
   all.rounds = BATCH_ROUNDS * COLOR_LIMIT; /* the most rounds after which a batcher launches another kernel */
   all.known[COUNT_PAIRS] = all.known[COUNT_CONSTRAINTS] = most_pairs; /* many pairs, which touch */

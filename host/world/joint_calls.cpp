@@ -58,7 +58,10 @@ std::vector<uint32_t> bodies_with_new_colors(const JointGraph &before, const Joi
 /* Whether the kernels of a step with the first graph do for the second. */
 bool has_kernels_for(const JointGraph &one, const JointGraph &other)
 {
-  return (other.colors == 0 || one.colors > 0) && (other.colors <= COLOR_LIMIT || one.colors > COLOR_LIMIT);
+  const auto has = [](uint32_t colors, uint32_t others) {
+    return (others == 0 || colors > 0) && (others <= COLOR_LIMIT || colors > COLOR_LIMIT);
+  };
+  return has(one.colors, other.colors) && has(one.link_colors, other.link_colors);
 }
 
 bool are_all_among(const std::vector<bool> &flags, const std::vector<bool> &others)
@@ -216,7 +219,7 @@ std::vector<JointId> World::Implementation::create_joints(std::span<const Joint>
   for (size_t i = 0; i < given.size(); ++i) {
     validate(scene, given[i], i, "create_joints");
     check_joined_bodies("create_joints", i, given[i]);
-    refuse_linked("create_joints", "no further joint can hold it", std::array{given[i].body_a, given[i].body_b});
+    check_joint_beside_links(links, given[i], i, "create_joints");
   }
   if (given.empty()) return {};
   JointSlots new_slots = joint_slots;
@@ -292,7 +295,7 @@ void World::Implementation::set_joints(std::span<const JointId> ids, std::span<c
   for (size_t i = 0; i < given.size(); ++i) {
     validate(scene, given[i], i, "set_joints");
     check_joined_bodies("set_joints", i, given[i]);
-    refuse_linked("set_joints", "no further joint can hold it", std::array{given[i].body_a, given[i].body_b});
+    check_joint_beside_links(links, given[i], i, "set_joints");
     const Joint &before = std::exchange(joints[changed[i]], given[i]);
     if (before.type != given[i].type || before.body_a != given[i].body_a || before.body_b != given[i].body_b ||
         !(held_by(before) == held_by(given[i])))
@@ -366,10 +369,10 @@ void World::Implementation::set_joint_axes(std::span<const JointId> ids, std::sp
   }
   if (ids.empty()) return;
   for (const auto &[slot, k] : of_slot)
-    if (is_in_tree(slot))
-      check_in_world(joints[k], slot, [&, &joint = joints[k]](uint32_t number, const std::string &where) {
-        check_joint_of_tree(joint, number, where);
-      });
+    check_in_world(joints[k], slot, [&, &joint = joints[k], &slot = slot](uint32_t number, const std::string &where) {
+      if (is_in_tree(slot)) check_joint_of_tree(joint, number, where);
+      else check_joint_beside_links(links, joint, number, where);
+    });
   std::vector<uint32_t> distinct;
   std::vector<Joint> in_order;
   for (const auto &[slot, k] : of_slot) distinct.push_back(slot), in_order.push_back(joints[k]);

@@ -35,10 +35,11 @@ JointOrder::JointOrder(const Scene &scene, const JointGraph &graph)
   for_each_side([&](uint32_t joint, uint32_t body) { of_body_[next[body]++] = joint; });
 }
 
-uint32_t JointOrder::colors() const
+/* How many of the colours from one on, of which the last is that of overflow joints, are in use. */
+uint32_t JointOrder::colors_from(uint32_t first) const
 {
-  auto colors = static_cast<uint32_t>(starts_.size() - 1);
-  while (colors > 0 && starts_[colors - 1] == starts_.back()) --colors;
+  uint32_t colors = COLOR_OVERFLOW + 1;
+  while (colors > 0 && starts_[first + colors - 1] == starts_[first + COLOR_OVERFLOW + 1]) --colors;
   return colors;
 }
 

@@ -16,6 +16,7 @@
 #include <tandem/scene.h>
 
 #include "host/scene/joint_graph.h"
+#include "shared/counts.h"
 
 namespace tandem {
 
@@ -26,10 +27,11 @@ public:
 
   std::span<const uint32_t> joints() const { return joints_; } /* by place */
   std::span<const uint32_t> awake() const { return joints().first(starts_.back()); }
-  /* Of each colour, of the overflow joints, and the end of those awake. */
+  /* As JointGraph::starts, of those awake. */
   const std::vector<uint32_t> &starts() const { return starts_; }
-  /* As JointGraph::colors, of those awake. */
-  uint32_t colors() const;
+  /* As JointGraph::colors and link_colors, of those awake. */
+  uint32_t colors() const { return colors_from(0); }
+  uint32_t link_colors() const { return colors_from(COLOR_OVERFLOW + 1); }
   uint32_t place_of(uint32_t joint) const { return place_[joint]; }
   std::span<const uint32_t> of_body(uint32_t body) const; /* those that are enabled */
 
@@ -48,6 +50,7 @@ public:
 private:
   Moves put(std::vector<uint32_t> first, size_t awake, size_t all_from);
   void find_starts(size_t awake);
+  uint32_t colors_from(uint32_t first) const;
 
   std::vector<uint32_t> joints_, place_, starts_;
   std::vector<uint32_t> rank_, colors_;   /* in the graph: the place of each joint; JointGraph::starts */

@@ -65,8 +65,7 @@ void World::Implementation::tell_joints()
   StagedUploads uploads;
   stage_bodies_of_joints(uploads, scene, joint_graph, joint_order.awake(), index_of_body, first_joined_pair(sizes()));
   stage_joints_of_couplings(uploads, scene, coupling_graph, joint_order.awake());
-  if (!scene.articulations.empty())
-    stage_articulations(uploads, scene, index_of_body, plan.bodies, slots.status());
+  if (!scene.articulations.empty()) stage_articulations(uploads, scene, index_of_body, plan.bodies, slots.status());
   for (const auto &[entry, value] : joint_entries_of(joint_order.starts()))
     uploads.add_count(static_cast<uint32_t>(entry), value);
   uploads.add(Buffer::parameters, std::vector<Parameters>{parameters_now()});
@@ -78,6 +77,7 @@ void World::Implementation::plan_joints() noexcept
 {
   const std::vector<uint32_t> &starts = joint_order.starts();
   plan.joint_colors = joint_order.colors();
+  plan.link_joint_colors = joint_order.link_colors();
   std::copy(starts.begin(), starts.end(), plan.known.begin() + JOINT_COLOR_START);
   plan.known[COUNT_JOINTS] = plan.known[COUNT_COMMIT_JOINTS] = starts.back();
   const std::vector<uint32_t> &of_couplings = coupling_graph.starts;

@@ -12,13 +12,12 @@
 #ifndef TANDEM_SHARED_ARTICULATIONS_CONTACT_H
 #define TANDEM_SHARED_ARTICULATIONS_CONTACT_H
 
-#include "shared/articulations/contact_side.h"
+#include "shared/articulations/row.h"
 #include "shared/solve/contact.h"
 
 typedef struct {
-  contact_side a, b;
-  contact shape;  /* as the bodies alone would have it; the sides have velocities and inertias */
-  uint is_within; /* both are links of one tree */
+  pushed_pair ends;
+  contact shape; /* as the bodies alone would have it; the ends have velocities and inertias */
   arm_shift shift;
   vec4 offset, center_a, center_b;
   delta_pose moved;
@@ -30,9 +29,9 @@ SHARED link_contact load_link_contact(GLOBAL const Parameters *parameters, read_
 {
   link_contact c;
   c.shape = load_contact(parameters, contacts, solver_velocity, bodies.inertia, i);
-  c.a = contact_side_of(links, states, c.shape.a, c.shape.velocity_a, c.shape.inertia_a, c.shape.locks_a);
-  c.b = contact_side_of(links, states, c.shape.b, c.shape.velocity_b, c.shape.inertia_b, c.shape.locks_b);
-  c.is_within = c.a.is_link && c.b.is_link && c.a.tree.number == c.b.tree.number ? 1u : 0u;
+  pushed_side a = pushed_side_of(links, states, c.shape.a, c.shape.velocity_a, c.shape.inertia_a, c.shape.locks_a);
+  pushed_side b = pushed_side_of(links, states, c.shape.b, c.shape.velocity_b, c.shape.inertia_b, c.shape.locks_b);
+  c.ends = pushed_pair_of(a, b);
   c.moved = load_delta_pose(bodies.delta, c.shape);
   c.shift = shift_of_contact(c.shape, c.moved.translation);
   c.offset = load_float4(patches.offset, i);
@@ -41,54 +40,25 @@ SHARED link_contact load_link_contact(GLOBAL const Parameters *parameters, read_
   return c;
 }
 
-/* --- rows ----------------------------------------------------------------------------------------------------- */
-/* The impulse that a row gives to b; a gets its opposite, at its own arm. */
-typedef struct {
-  spatial_force a, b;
-} contact_row;
-
-SHARED contact_row row_along(vec3 arm_a, vec3 arm_b, vec3 direction)
+/* What is within one tree is bounded, not computed. */
+SHARED real response_of_rows(const link_contact *c, row_of_pair first, row_of_pair second)
 {
-  contact_row r = {impulse_at(arm_a, direction), impulse_at(arm_b, direction)};
-  return r;
-}
-
-SHARED real response_of_rows(const link_contact *c, contact_row first, contact_row second)
-{
-  real apart = response_of_contact_side(&c->a, first.a, second.a) + response_of_contact_side(&c->b, first.b, second.b);
-  return c->is_within ? R(2.0) * apart : apart;
-}
-SHARED real speed_of_row(const link_contact *c, contact_row r)
-{
-  return power_of(r.b, c->b.velocity) - power_of(r.a, c->a.velocity);
-}
-
-SHARED void push_row(link_contact *c, contact_row r, real impulse)
-{
-  push_contact_side(&c->a, scaled_force(r.a, -impulse));
-  push_contact_side(&c->b, scaled_force(r.b, impulse));
-}
-
-SHARED void push_both_into_tree(link_contact *c)
-{
-  push_into_tree(&c->a);
-  push_into_tree(&c->b);
-  c->a.velocity = pending_velocity(&c->a.tree, c->a.k);
-  c->b.velocity = pending_velocity(&c->b.tree, c->b.k);
+  real apart = response_apart(&c->ends, first, second);
+  return c->ends.is_within ? R(2.0) * apart : apart;
 }
 
 /* --- friction ------------------------------------------------------------------------------------------------- */
 SHARED real twist_of_contact(link_contact *c, real old, real limit)
 {
-  contact_row r = {twist_about(c->shape.normal), twist_about(c->shape.normal)};
+  row_of_pair r = row_about(c->shape.normal);
   real mass = inverse_or_zero(response_of_rows(c, r, r));
-  real twist = clamped(old - mass * speed_of_row(c, r), -limit, limit);
-  push_row(c, r, twist - old);
+  real twist = clamped(old - mass * speed_of_row(&c->ends, r), -limit, limit);
+  push_row(&c->ends, r, twist - old);
   return twist;
 }
 
 /* As friction_mass in setup/contact.h, where the tree stands now. */
-SHARED real sliding_mass(const link_contact *c, contact_row first, contact_row second)
+SHARED real sliding_mass(const link_contact *c, row_of_pair first, row_of_pair second)
 {
   real one = response_of_rows(c, first, first), other = response_of_rows(c, second, second);
   real mixed = response_of_rows(c, first, second), difference = one - other;
@@ -102,21 +72,22 @@ SHARED vec4 solve_link_friction(link_contact *c, vec4 impulse, real normal_impul
   real twist = twist_of_contact(c, impulse.z, limit * impulse.w);
   tangents t = tangents_of(c->shape.normal);
   vec3 arm_a = add(xyz(c->center_a), c->shift.a), arm_b = add(xyz(c->center_b), c->shift.b);
-  contact_row first = row_along(arm_a, arm_b, t.first), second = row_along(arm_a, arm_b, t.second);
+  row_of_pair first = row_along(arm_a, arm_b, t.first), second = row_along(arm_a, arm_b, t.second);
   real mass = sliding_mass(c, first, second);
-  real x = impulse.x - mass * speed_of_row(c, first), y = impulse.y - mass * speed_of_row(c, second);
+  real x = impulse.x - mass * speed_of_row(&c->ends, first), y = impulse.y - mass * speed_of_row(&c->ends, second);
   real squared = x * x + y * y;
   mask slips = squared > limit * limit;
   real shrink = choose(slips, limit / square_root(choose(slips, squared, (real)R(1.0))), (real)R(1.0));
   x = x * shrink;
   y = y * shrink;
-  push_row(c, row_along(arm_a, arm_b, add(scale(t.first, x - impulse.x), scale(t.second, y - impulse.y))), R(1.0));
+  push_row(&c->ends, row_along(arm_a, arm_b, add(scale(t.first, x - impulse.x), scale(t.second, y - impulse.y))),
+           R(1.0));
   return make_vec4(x, y, twist, impulse.w);
 }
 
 /* --- normals -------------------------------------------------------------------------------------------------- */
 typedef struct {
-  contact_row row[4];
+  row_of_pair row[4];
   real mass[4], impulse[4], separation[4];
 } link_normals;
 
@@ -140,13 +111,12 @@ SHARED link_normals load_link_normals(const link_contact *c, read_patches patche
 SHARED void block_solve_link_normals(link_contact *c, link_normals *s, const real *target)
 {
   real change[4], own = R(0.0);
-  contact_row sum = {no_force(), no_force()};
+  row_of_pair sum = {no_force(), no_force()};
   for (uint k = 0; k < 4u; ++k) {
     mask used = s->mass[k] > R(0.0);
     change[k] = choose(used, maximum(target[k], R(0.0)) - s->impulse[k], (real)R(0.0));
     own = own + change[k] * (target[k] - s->impulse[k]) / choose(used, s->mass[k], (real)R(1.0));
-    sum.a = add_forces(sum.a, scaled_force(s->row[k].a, change[k]));
-    sum.b = add_forces(sum.b, scaled_force(s->row[k].b, change[k]));
+    sum = add_rows(sum, scaled_row(s->row[k], change[k]));
   }
   real whole = response_of_rows(c, sum, sum);
   real share = minimum(own / choose(whole > R(0.0), whole, (real)R(1.0)), R(2.0));
@@ -154,7 +124,7 @@ SHARED void block_solve_link_normals(link_contact *c, link_normals *s, const rea
   for (uint k = 1; k < 4u; ++k) pulls = pulls | (s->impulse[k] + share * change[k] < R(0.0));
   share = choose(pulls, minimum(share, R(1.0)), share);
   for (uint k = 0; k < 4u; ++k) s->impulse[k] = s->impulse[k] + share * change[k];
-  push_row(c, sum, share);
+  push_row(&c->ends, sum, share);
 }
 
 SHARED void solve_link_normals(GLOBAL const Parameters *parameters, link_contact *c, link_normals *s, real slop,
@@ -163,7 +133,7 @@ SHARED void solve_link_normals(GLOBAL const Parameters *parameters, link_contact
   softness soft = softness_of(parameters, c->shape);
   real target[4];
   for (uint k = 0; k < 4u; ++k)
-    target[k] = normal_impulse(parameters, soft, slop, s->separation[k], speed_of_row(c, s->row[k]), s->mass[k],
+    target[k] = normal_impulse(parameters, soft, slop, s->separation[k], speed_of_row(&c->ends, s->row[k]), s->mass[k],
                                s->impulse[k], biased);
   block_solve_link_normals(c, s, target);
 }
@@ -175,7 +145,8 @@ SHARED void bounce_link_normals(link_contact *c, link_normals *s, vec4 target_ve
   for (uint k = 0; k < 4u; ++k) {
     real target = component(target_velocity, k);
     mask applies = (target >= R(0.0)) & (component(highest, k) > R(0.0));
-    wanted[k] = choose(applies, s->impulse[k] - s->mass[k] * (speed_of_row(c, s->row[k]) - target), s->impulse[k]);
+    wanted[k] =
+        choose(applies, s->impulse[k] - s->mass[k] * (speed_of_row(&c->ends, s->row[k]) - target), s->impulse[k]);
   }
   block_solve_link_normals(c, s, wanted);
 }
@@ -187,25 +158,14 @@ SHARED vec4 impulses_of_normals(const link_normals *s)
 
 /* --- kernels -------------------------------------------------------------------------------------------------- */
 /* All impulses of the contact. */
-SHARED contact_row row_of_impulses(const link_contact *c, const link_normals *s, vec4 friction)
+SHARED row_of_pair row_of_impulses(const link_contact *c, const link_normals *s, vec4 friction)
 {
   tangents t = tangents_of(c->shape.normal);
   vec3 slide = add(scale(t.first, friction.x), scale(t.second, friction.y));
-  contact_row r = row_along(add(xyz(c->center_a), c->shift.a), add(xyz(c->center_b), c->shift.b), slide);
-  spatial_force twist = twist_about(scale(c->shape.normal, friction.z));
-  r.a = add_forces(r.a, twist);
-  r.b = add_forces(r.b, twist);
-  for (uint k = 0; k < 4u; ++k) {
-    r.a = add_forces(r.a, scaled_force(s->row[k].a, s->impulse[k]));
-    r.b = add_forces(r.b, scaled_force(s->row[k].b, s->impulse[k]));
-  }
+  row_of_pair r = row_along(add(xyz(c->center_a), c->shift.a), add(xyz(c->center_b), c->shift.b), slide);
+  r = add_rows(r, row_about(scale(c->shape.normal, friction.z)));
+  for (uint k = 0; k < 4u; ++k) r = add_rows(r, scaled_row(s->row[k], s->impulse[k]));
   return r;
-}
-
-SHARED void store_link_contact(link_contact *c, GLOBAL float4 *solver_velocity)
-{
-  store_contact_side(&c->a, solver_velocity);
-  store_contact_side(&c->b, solver_velocity);
 }
 
 /* Rows of impulses are read and written by the kernels below as those of solve/contact.h do. */
@@ -217,7 +177,7 @@ SHARED void solve_link_contact(GLOBAL const Parameters *parameters, link_contact
   if (HAS_FEATURE(parameters, FRICTION) && c->shape.friction > R(0.0)) {
     friction = solve_link_friction(c, friction, (normal.x + normal.y) + (normal.z + normal.w));
     store_float4(impulses.friction, i, friction);
-    if (c->is_within) push_both_into_tree(c);
+    if (c->ends.is_within) push_both_into_tree(&c->ends);
   }
   link_normals s = load_link_normals(c, patches, planes, normal, i);
   real slop = load_real(patches.slop, i);
@@ -228,16 +188,14 @@ SHARED void solve_link_contact(GLOBAL const Parameters *parameters, link_contact
   store_float4(impulses.normal, i, normal);
   keep_highest_impulses(parameters, impulses.restitution, planes.stride, normal, i);
   if (pass != (uint)PASS_RELAXING) return;
-  contact_row all = row_of_impulses(c, &s, friction);
-  add_warm_start_of_side(&c->a, scaled_force(all.a, R(-1.0)), parameters->inverse_substep, warm_start_impulse);
-  add_warm_start_of_side(&c->b, all.b, parameters->inverse_substep, warm_start_impulse);
+  add_warm_start_of_pair(&c->ends, row_of_impulses(c, &s, friction), parameters->inverse_substep, warm_start_impulse);
 }
 
 SHARED void warm_start_link_contact(GLOBAL const Parameters *parameters, link_contact *c, read_patches patches,
                                     point_planes planes, write_contact_impulses impulses, uint i)
 {
   link_normals s = load_link_normals(c, patches, planes, load_float4(impulses.normal, i), i);
-  push_row(c, row_of_impulses(c, &s, load_friction(parameters, impulses.friction, i)), R(1.0));
+  push_row(&c->ends, row_of_impulses(c, &s, load_friction(parameters, impulses.friction, i)), R(1.0));
 }
 
 SHARED void bounce_link_contact(link_contact *c, read_patches patches, point_planes planes,
@@ -264,7 +222,7 @@ SHARED void solve_link_contacts_item(GLOBAL const Parameters *parameters, read_c
   if (pass == (uint)PASS_WARM_STARTING) warm_start_link_contact(parameters, &c, patches, planes, contact_impulses, i);
   else if (pass == (uint)PASS_BOUNCING) bounce_link_contact(&c, patches, planes, contact_impulses, i);
   else solve_link_contact(parameters, &c, patches, planes, contact_impulses, warm_start_impulse, pass, i);
-  store_link_contact(&c, solver_velocity);
+  store_pair(&c.ends, solver_velocity);
 }
 
 /* The contacts of links that share colours with others, one after another. */

@@ -40,9 +40,9 @@ enum {
 /* Of a tree: rows of its root. */
 enum {
   ROOT_LINEAR_VELOCITY, /* of a free root */
-  ROOT_LINEAR_FORCE, /* and whether contacts have pushed in the substep: bodies.h */
-  ROOT_START,    /* a linear velocity that is gone back to */
-  ROOT_POSITION, /* two rows, a double_float3: the centre of a free root, or frame a of another */
+  ROOT_LINEAR_FORCE,    /* and whether contacts have pushed in the substep: bodies.h */
+  ROOT_START,           /* a linear velocity that is gone back to */
+  ROOT_POSITION,        /* two rows, a double_float3: the centre of a free root, or frame a of another */
   ROOT_ROWS = ROOT_POSITION + 2
 };
 

@@ -1,4 +1,4 @@
-/* kernels.h - articulations: links in reduced coordinates, and their contacts.
+/* kernels.h - articulations: links in reduced coordinates, their contacts, and joints from outside.
  *
  * cl/articulations.cl and the widths of MiniCL (shared/kernels.h) include the kernels of this stage from here alone. */
 #ifndef TANDEM_SHARED_ARTICULATIONS_KERNELS_H
@@ -6,6 +6,7 @@
 
 #include "shared/articulations/colors.h"
 #include "shared/articulations/contact.h"
+#include "shared/articulations/joint.h"
 #include "shared/articulations/step.h"
 
 #endif

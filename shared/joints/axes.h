@@ -232,17 +232,25 @@ SHARED joint apply_along(joint j, const axis_row *r, real impulse)
   return j;
 }
 
-/* kept: the impulses of drive, limits and friction, and the coordinate at the start of the substep. */
+/* The sum by which the impulses of an axis change. kept: those of drive, limits and friction, and the coordinate at the
+ * start of the substep. */
+SHARED real solve_rows_of_axis(GLOBAL const Parameters *parameters, axis_row *r, const joint_axis *axis, vec4 *kept,
+                               uint pass)
+{
+  real start = pass == PASS_BIASED ? r->at.value : kept->w, sum = R(0.0);
+  real drive = solve_drive(parameters, r, axis, start, kept->x, &sum);
+  real friction = solve_axis_friction(parameters, r, axis->friction, kept->z, &sum);
+  limit_speed(r, axis->largest_speed, &sum);
+  real limit = solve_limits(parameters, r, axis, kept->y, pass, &sum);
+  *kept = make_vec4(drive, limit, friction, start);
+  return sum;
+}
+
 SHARED joint solve_axis(GLOBAL const Parameters *parameters, joint j, joint_frames f, const joint_axis *axis,
                         vec4 *kept, uint pass)
 {
   axis_row r = row_of_axis(j, f, axis->kind);
-  real start = pass == PASS_BIASED ? r.at.value : kept->w, sum = R(0.0);
-  real drive = solve_drive(parameters, &r, axis, start, kept->x, &sum);
-  real friction = solve_axis_friction(parameters, &r, axis->friction, kept->z, &sum);
-  limit_speed(&r, axis->largest_speed, &sum);
-  real limit = solve_limits(parameters, &r, axis, kept->y, pass, &sum);
-  *kept = make_vec4(drive, limit, friction, start);
+  real sum = solve_rows_of_axis(parameters, &r, axis, kept, pass);
   return apply_along(j, &r, sum);
 }
 

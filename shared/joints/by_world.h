@@ -25,7 +25,7 @@ SHARED uint begins_world(read_joints joints, GLOBAL const uint *body_world, GLOB
 
 /* The overflow joints of the world `own`, of which i is the first. */
 #define FOR_EACH_OVERFLOW_JOINT_OF_WORLD(k, i, own, body_world) \
-  for (uint k = i; k < counts[COUNT_JOINTS] && world_of_joint(joints, body_world, k) == (own); ++k)
+  for (uint k = i; k < counts[LINK_JOINT_COLOR_START] && world_of_joint(joints, body_world, k) == (own); ++k)
 
 SHARED void warm_start_overflow_joints_by_world_item(GLOBAL const Parameters *parameters, read_joints joints,
                                                      read_turning_bodies bodies, read_joint_axes axes,

@@ -10,7 +10,7 @@
 #include "shared/joints/solve.h"
 
 #define FOR_EACH_OVERFLOW_JOINT(i) \
-  for (uint i = counts[JOINT_COLOR_START + COLOR_OVERFLOW]; i < counts[COUNT_JOINTS]; ++i)
+  for (uint i = counts[JOINT_COLOR_START + COLOR_OVERFLOW]; i < counts[LINK_JOINT_COLOR_START]; ++i)
 
 SHARED void warm_start_overflow_joints_item(GLOBAL const Parameters *parameters, read_joints joints,
                                             read_turning_bodies bodies, read_joint_axes axes,

@@ -66,4 +66,40 @@ inline Scene tree_crowd(uint64_t seed = 1, uint32_t trees = 12, uint32_t chain =
   return scene;
 }
 
+/* tree_crowd() whose trees have loops, and hang on each other, on single bodies and on the world, by joints of many
+ * types with limits, springs and motors. */
+inline Scene joined_trees(uint64_t seed = 1, uint32_t trees = 10)
+{
+  using namespace physics_tests;
+  static constexpr JointType types[] = {JointType::ball,     JointType::hinge,      JointType::slider,
+                                        JointType::fixed,    JointType::distance,   JointType::universal,
+                                        JointType::parallel, JointType::cylindrical};
+  Scene scene = tree_crowd(seed, trees, 0);
+  Random random(seed + 100);
+  std::vector<std::vector<uint32_t>> links;
+  for (const Articulation &tree : scene.articulations) {
+    std::vector<uint32_t> &own = links.emplace_back();
+    if (tree.root != no_body) own.push_back(tree.root);
+    for (const uint32_t joint : tree.joints) own.push_back(scene.joints[joint].body_b);
+  }
+  const auto join = [&](uint32_t a, uint32_t b) {
+    const Vector from = a == no_body ? vector_of(scene.bodies[b].position) : vector_of(scene.bodies[a].position);
+    const Vector at = 0.5 * (from + vector_of(scene.bodies[b].position));
+    Joint &joint = connect(scene, types[random.below(8)], a, b, at, direction(random));
+    if (joint.type == JointType::cylindrical) joint.rotations[0].damping = 0.5f;
+    if (joint.type == JointType::hinge) joint.rotations[0] = {.lower = -0.4f, .upper = 0.5f, .stiffness = 5};
+    if (joint.type == JointType::slider) joint.directions[0] = {.target_velocity = 1, .motor = true, .max_force = 4};
+    if (random.below(8) == 0) joint.break_force = 200;
+  };
+  for (size_t k = 0; k < links.size(); ++k) {
+    const auto any_of = [&](const std::vector<uint32_t> &own) { return own[random.below(uint32_t(own.size()))]; };
+    const uint32_t one = any_of(links[k]), other = any_of(links[k]), last = uint32_t(scene.bodies.size() - 1);
+    if (one != other) join(one, other);
+    if (k % 2 == 0) join(any_of(links[(k + 1) % links.size()]), one);
+    if (k % 3 == 0) join(last - uint32_t(k), other);
+    if (k % 5 == 0) join(no_body, one);
+  }
+  return scene;
+}
+
 } // namespace tandem::parity

@@ -38,6 +38,24 @@ TEST_CASE("parity on CPU: articulations in a heap, held and free, past the last 
   require_parity(tree_crowd(3, 6, 0), cpu_backends(), 10, in_sequence);
 }
 
+TEST_CASE("parity on CPU: joints that hold links, whose trees have loops and hang on each other")
+{
+  for (const uint64_t seed : {1, 2}) require_parity(joined_trees(seed), cpu_backends(), 25, watched());
+  Scene hub = tree_crowd(1, 4, 0); /* past the last colour */
+  for (uint32_t k = 0; k < 70; ++k) {
+    const auto body = uint32_t(hub.bodies.size());
+    add_body(hub, BodyType::dynamic, sphere_shape(0.05f), {0.1 * k, 4, 0.1}).mass = 0.1f;
+    connect(hub, JointType::distance, hub.articulations[0].root, body, {0.1 * k, 4, 0.1}).rotations = {};
+  }
+  require_parity(hub, cpu_backends(), 10, watched());
+}
+
+TEST_CASE("parity on OpenCL: joints that hold links")
+{
+  require_pocl();
+  require_parity(joined_trees(3, 6), {"serial", "cl:pocl"}, 6);
+}
+
 TEST_CASE("parity on OpenCL: articulations")
 {
   require_pocl();
@@ -55,6 +73,13 @@ TEST_CASE("articulations in their own place, and with every feature built, have 
     CHECK(hash_of_trees(scene, 20, {}, Placement{"tbb", parse_placement(exceptions), false}) == expected);
 }
 
+TEST_CASE("a world whose joints hold links goes on from its snapshot with the same bits, anywhere")
+{
+  require_goes_on(joined_trees(4, 8), watched(), [](const World &world, const World &original) {
+    CHECK(world.scene().joints.size() == original.scene().joints.size());
+  });
+}
+
 TEST_CASE("a world with articulations goes on from its snapshot with the same bits, anywhere")
 {
   require_goes_on(tree_crowd(6, 8, 0), watched(), [](const World &world, const World &original) {
@@ -65,6 +90,17 @@ TEST_CASE("a world with articulations goes on from its snapshot with the same bi
 TEST_CASE("parity on CPU: worlds of a batch with articulations have the bits of worlds alone")
 {
   BatchBesideWorlds(tests::seeded_scenes("humanoid:n=2,stiffness=0,height=0.3", 4), "tbb:threads=3", {}).step(30);
+}
+
+TEST_CASE("parity on CPU: worlds of a batch whose joints hold links have the bits of worlds alone")
+{
+  std::vector<Scene> scenes;
+  for (const uint64_t seed : {1, 2, 3}) {
+    scenes.push_back(joined_trees(5, 6));
+    for (Body &body : scenes.back().bodies) body.linear_velocity = {0.1f * float(seed), 0, 0};
+    for (Joint &joint : scenes.back().joints) joint.break_force = JointAxis::unlimited;
+  }
+  BatchBesideWorlds(scenes, "tbb:threads=3", {}).step(30);
 }
 
 } // namespace tandem::parity

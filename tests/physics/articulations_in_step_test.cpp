@@ -225,8 +225,15 @@ TEST_CASE("what articulations cannot have is refused by name", "[articulations]"
   other.joints[1].break_force = 3;
   refuses(other, "joint 1: can break");
   other = scene;
-  connect(other, JointType::ball, 0, 2, {0, 0, 0});
-  refuses(other, "joint 3: holds body 0, a link");
+  connect(other, JointType::hinge, 0, 2, {0, 0, 0}).rotations[0] = {.lower = 0, .upper = 1, .restitution = 0.5f};
+  refuses(other, "joint 3: has a limit that bounces; joints that hold links have none");
+  other.joints.back().rotations[0] = {};
+  CHECK(refusal(other) == "accepted");
+  connect(other, JointType::hinge, 1, 2, {0, 0, 0});
+  Coupling &gear = other.couplings.emplace_back();
+  gear.joint_a = 3, gear.joint_b = 4;
+  gear.teeth_a = gear.teeth_b = 1;
+  refuses(other, "coupling 0: couples joint 3, which holds a link");
   other = scene;
   other.articulations.push_back({"second", {}, 1, {}});
   refuses(other, "articulation 'second': body 1 is a link of another articulation");
@@ -260,7 +267,9 @@ TEST_CASE("what articulations cannot have is refused by name", "[articulations]"
   call_refuses([&] { world.set_joints(joint, std::span(&scene.joints[1], 1)); }, "set_joint_axes alone");
   Joint further = scene.joints[1];
   further.body_a = no_body;
-  call_refuses([&] { world.create_joints(std::span(&further, 1)); }, "no further joint can hold it");
+  further.type = JointType::hinge;
+  further.rotations[0] = {.lower = 0, .upper = 1, .restitution = 0.5f};
+  call_refuses([&] { world.create_joints(std::span(&further, 1)); }, "joints that hold links have none");
 }
 
 TEST_CASE("set_joint_axes moves the targets of an articulation", "[articulations]")

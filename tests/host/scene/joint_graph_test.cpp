@@ -45,7 +45,8 @@ bool is_pushed(const Scene &scene, uint32_t body)
 void require_proper(const Scene &scene, const JointGraph &graph)
 {
   const auto count = static_cast<uint32_t>(scene.joints.size());
-  REQUIRE(graph.starts.size() == COLOR_ENTRIES);
+  REQUIRE(graph.starts.size() == 2 * COLOR_ENTRIES - 1);
+  REQUIRE(graph.starts[COLOR_ENTRIES - 1] == count); /* none holds a link */
   REQUIRE(graph.starts.front() == 0);
   REQUIRE(graph.starts.back() == count);
   REQUIRE(std::is_sorted(graph.starts.begin(), graph.starts.end()));
@@ -117,4 +118,42 @@ TEST_CASE("joints of a body past the last colour overflow, in their order, and t
   Scene full = bodies_of(most + 1, 0);
   for (uint32_t i = 1; i <= most; ++i) join(full, 0, i);
   CHECK(joint_graph_of(full).colors == most);
+}
+
+TEST_CASE("joints that hold links stand behind all others, and no two of a colour hold one tree")
+{
+  Random random(12);
+  Scene scene = bodies_of(40, 2);
+  for (Body &body : scene.bodies) body.mass = 1, body.inertia = {1, 1, 1};
+  for (uint32_t tree = 0; tree < 4; ++tree) { /* of four links each; the bodies from 16 on are single ones */
+    Articulation &one = scene.articulations.emplace_back();
+    one.root = 4 * tree;
+    for (uint32_t k = 1; k < 4; ++k) {
+      one.joints.push_back(uint32_t(scene.joints.size()));
+      join(scene, 4 * tree + k - 1, 4 * tree + k, JointType::ball);
+    }
+  }
+  for (uint32_t k = 0; k < 200; ++k) {
+    const uint32_t a = random.below(40), b = random.below(42);
+    if (a != b) join(scene, a, b, JointType::ball);
+  }
+  const JointGraph graph = joint_graph_of(scene);
+  const auto tree_of = [](uint32_t body) { return body < 16 ? 100 + body / 4 : body; };
+  const auto holds_link = [&](uint32_t joint) {
+    return scene.joints[joint].body_a < 16 || scene.joints[joint].body_b < 16;
+  };
+  const uint32_t first = graph.starts[COLOR_ENTRIES - 1], end = graph.starts.back();
+  CHECK(graph.in_trees.size() == 12);
+  CHECK(end + 12 == scene.joints.size());
+  CHECK(graph.link_colors > 1);
+  for (uint32_t i = 0; i < end; ++i) CHECK(holds_link(graph.order[i]) == (i >= first));
+  for (uint32_t color = 0; color < COLOR_LIMIT; ++color) {
+    std::set<uint32_t> held;
+    for (uint32_t i = graph.starts[COLOR_ENTRIES - 1 + color]; i < graph.starts[COLOR_ENTRIES + color]; ++i) {
+      std::set<uint32_t> of_joint;
+      for (const uint32_t body : {scene.joints[graph.order[i]].body_a, scene.joints[graph.order[i]].body_b})
+        if (is_pushed(scene, body)) of_joint.insert(tree_of(body));
+      for (const uint32_t node : of_joint) CHECK(held.insert(node).second);
+    }
+  }
 }

@@ -1,11 +1,11 @@
-/* contact_side.h - one body of a contact that touches a link: the link of a tree, or any other body.
+/* side.h - one body of a contact or of a joint that pushes a link: the link of a tree, or any other body.
  *
  * Both answer to an impulse with a 6x6 inverse inertia (spatial.h). That of a link is its inverse inertia within the
  * tree (link_inertia.h), so the effective mass of a row is exact, whatever the tree is and wherever it is held. What
- * the rows of a contact push with is summed up, and goes through the tree once the contact is solved.
+ * rows push with is summed up, and goes through the tree once the contact or the joint is solved.
  */
-#ifndef TANDEM_SHARED_ARTICULATIONS_CONTACT_SIDE_H
-#define TANDEM_SHARED_ARTICULATIONS_CONTACT_SIDE_H
+#ifndef TANDEM_SHARED_ARTICULATIONS_SIDE_H
+#define TANDEM_SHARED_ARTICULATIONS_SIDE_H
 
 #include "shared/articulations/bodies.h"
 
@@ -16,7 +16,7 @@ typedef struct {
   spatial_motion velocity;
   symmetric6 inverse;
   spatial_force pushed; /* since the velocity was loaded */
-} contact_side;
+} pushed_side;
 
 /* The motion of a link with what is pending in its tree. */
 SHARED spatial_motion pending_velocity(const articulation *t, uint k)
@@ -37,29 +37,39 @@ SHARED symmetric6 inverse_of_single_body(spatial_velocity m, symmetric3 inertia,
   return s;
 }
 
-/* record, inertia, locks: as the contact has loaded them; they move a body that is no link. */
-SHARED contact_side contact_side_of(read_links links, write_link_states states, uint body, spatial_velocity record,
+/* A body that is no link, or that rests as a link of a tree in quarantine does. */
+SHARED pushed_side single_body_side(read_links links, write_link_states states, uint body, spatial_velocity record,
                                     symmetric3 inertia, real locks)
 {
-  contact_side s;
+  pushed_side s;
   s.body = body;
-  s.is_link = is_link(links.of_body, body);
-  s.k = links.of_body[LINK_WORDS * body + 2u];
+  s.is_link = 0u;
+  s.k = 0u;
   s.record = record;
   s.pushed = no_force();
-  s.tree = articulation_at(links, states, s.is_link ? articulation_of_body(links.of_body, body) : 0u);
-  if (s.is_link) {
-    s.velocity = pending_velocity(&s.tree, s.k);
-    s.inverse = load_symmetric6(&s.tree, s.k);
-  } else {
-    s.velocity.linear = record.linear;
-    s.velocity.angular = record.angular;
-    s.inverse = inverse_of_single_body(record, inertia, to_uint(locks));
-  }
+  s.tree = articulation_at(links, states, 0u);
+  s.velocity.linear = record.linear;
+  s.velocity.angular = record.angular;
+  s.inverse = inverse_of_single_body(record, inertia, to_uint(locks));
   return s;
 }
 
-SHARED vec3 velocity_of_side(const contact_side *s, vec3 arm) { return motion_at(s->velocity, arm).linear; }
+/* record, inertia, locks: as the contact or the joint has loaded them; they move a body that is no link. It notes the
+ * path to the link (respond.h), so both sides of a pair are loaded one after the other, in statements: compilers order
+ * the arguments of a call as they like. */
+SHARED pushed_side pushed_side_of(read_links links, write_link_states states, uint body, spatial_velocity record,
+                                  symmetric3 inertia, real locks)
+{
+  pushed_side s = single_body_side(links, states, body, record, inertia, locks);
+  if (!is_link(links.of_body, body)) return s;
+  s.tree = articulation_at(links, states, articulation_of_body(links.of_body, body));
+  if (s.tree.links == 0u) return s;
+  s.is_link = 1u;
+  s.k = links.of_body[LINK_WORDS * body + 2u];
+  s.velocity = pending_velocity(&s.tree, s.k);
+  s.inverse = load_symmetric6(&s.tree, s.k);
+  return s;
+}
 
 /* An impulse along a direction at the end of an arm, or of the pair of impulses that twists about it. */
 SHARED spatial_force impulse_at(vec3 arm, vec3 impulse)
@@ -74,19 +84,19 @@ SHARED spatial_force twist_about(vec3 moment)
 }
 
 /* How fast the side moves along `second` by the impulse `first`. */
-SHARED real response_of_contact_side(const contact_side *s, spatial_force first, spatial_force second)
+SHARED real response_of_side_of_pair(const pushed_side *s, spatial_force first, spatial_force second)
 {
   return power_of(second, inverse_times(&s->inverse, first));
 }
 
-SHARED void push_contact_side(contact_side *s, spatial_force impulse)
+SHARED void push_side_of_pair(pushed_side *s, spatial_force impulse)
 {
   s->velocity = add_motions(s->velocity, inverse_times(&s->inverse, impulse));
   s->pushed = add_forces(s->pushed, impulse);
 }
 
 /* What a link was pushed with goes through its tree; then its velocity is that of the tree. */
-SHARED void push_into_tree(contact_side *s)
+SHARED void push_into_tree(pushed_side *s)
 {
   if (!s->is_link) return;
   push_link(&s->tree, s->k, s->pushed);
@@ -94,7 +104,7 @@ SHARED void push_into_tree(contact_side *s)
   s->pushed = no_force();
 }
 
-SHARED void store_contact_side(contact_side *s, GLOBAL float4 *solver_velocity)
+SHARED void store_side_of_pair(pushed_side *s, GLOBAL float4 *solver_velocity)
 {
   push_into_tree(s);
   if (s->is_link || !(s->record.inverse_mass > R(0.0))) return;
@@ -104,7 +114,7 @@ SHARED void store_contact_side(contact_side *s, GLOBAL float4 *solver_velocity)
 }
 
 /* Adds to the warm start of the next substep. */
-SHARED void add_warm_start_of_side(const contact_side *s, spatial_force impulse, real inverse_substep,
+SHARED void add_warm_start_of_side(const pushed_side *s, spatial_force impulse, real inverse_substep,
                                    GLOBAL float4 *warm_start_impulse)
 {
   if (s->is_link) {

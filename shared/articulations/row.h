@@ -1,0 +1,82 @@
+/* row.h - rows of contacts and joints that push links: an impulse along a row pushes b, and its opposite pushes a. */
+#ifndef TANDEM_SHARED_ARTICULATIONS_ROW_H
+#define TANDEM_SHARED_ARTICULATIONS_ROW_H
+
+#include "shared/articulations/side.h"
+
+typedef struct {
+  pushed_side a, b;
+  uint is_within; /* both are links of one tree */
+} pushed_pair;
+
+SHARED pushed_pair pushed_pair_of(pushed_side a, pushed_side b)
+{
+  pushed_pair p = {a, b, a.is_link && b.is_link && a.tree.number == b.tree.number ? 1u : 0u};
+  return p;
+}
+
+/* The impulse that a row gives to b; a gets the opposite of the other, which is at its own arm. */
+typedef struct {
+  spatial_force a, b;
+} row_of_pair;
+
+SHARED row_of_pair row_along(vec3 arm_a, vec3 arm_b, vec3 direction)
+{
+  row_of_pair r = {impulse_at(arm_a, direction), impulse_at(arm_b, direction)};
+  return r;
+}
+SHARED row_of_pair row_about(vec3 axis)
+{
+  row_of_pair r = {twist_about(axis), twist_about(axis)};
+  return r;
+}
+SHARED row_of_pair add_rows(row_of_pair r, row_of_pair s)
+{
+  row_of_pair sum = {add_forces(r.a, s.a), add_forces(r.b, s.b)};
+  return sum;
+}
+SHARED row_of_pair scaled_row(row_of_pair r, real by)
+{
+  row_of_pair scaled = {scaled_force(r.a, by), scaled_force(r.b, by)};
+  return scaled;
+}
+
+/* How fast the pair moves along `second` by an impulse along `first`, if the sides were not of one tree. */
+SHARED real response_apart(const pushed_pair *p, row_of_pair first, row_of_pair second)
+{
+  return response_of_side_of_pair(&p->a, first.a, second.a) + response_of_side_of_pair(&p->b, first.b, second.b);
+}
+SHARED real speed_of_row(const pushed_pair *p, row_of_pair r)
+{
+  return power_of(r.b, p->b.velocity) - power_of(r.a, p->a.velocity);
+}
+
+SHARED void push_row(pushed_pair *p, row_of_pair r, real impulse)
+{
+  push_side_of_pair(&p->a, scaled_force(r.a, -impulse));
+  push_side_of_pair(&p->b, scaled_force(r.b, impulse));
+}
+
+/* Of one tree: then each side has what the other one pushed it with. */
+SHARED void push_both_into_tree(pushed_pair *p)
+{
+  push_into_tree(&p->a);
+  push_into_tree(&p->b);
+  p->a.velocity = pending_velocity(&p->a.tree, p->a.k);
+  p->b.velocity = pending_velocity(&p->b.tree, p->b.k);
+}
+
+SHARED void store_pair(pushed_pair *p, GLOBAL float4 *solver_velocity)
+{
+  store_side_of_pair(&p->a, solver_velocity);
+  store_side_of_pair(&p->b, solver_velocity);
+}
+
+SHARED void add_warm_start_of_pair(const pushed_pair *p, row_of_pair impulses, real inverse_substep,
+                                   GLOBAL float4 *warm_start_impulse)
+{
+  add_warm_start_of_side(&p->a, scaled_force(impulses.a, R(-1.0)), inverse_substep, warm_start_impulse);
+  add_warm_start_of_side(&p->b, impulses.b, inverse_substep, warm_start_impulse);
+}
+
+#endif
