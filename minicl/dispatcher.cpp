@@ -63,6 +63,8 @@ constexpr uint32_t items_per_task = 128, items_per_part = 32;
 /* A series whose largest launch has fewer is done sooner by one thread than others come: 100 boxes in 0.26 ms, and in
  * 0.45 by twelve. */
 constexpr uint32_t items_worth_a_region = 1024;
+/* A tree, or a contact or a joint of one, takes as long as many items of other kernels; so many share instructions. */
+constexpr uint32_t trees_per_task = 8, items_like_a_tree = 32;
 constexpr size_t launches_at_once = 512; /* a whole step of most scenes */
 constexpr size_t arguments_of_usual_kernels = 16;
 
@@ -193,6 +195,16 @@ public:
 
 private:
   static bool is_group(Kernel kernel) { return row_of(kernel).execution == Execution::group; }
+  static bool is_of_trees(Kernel kernel)
+  {
+    const KernelRow &row = row_of(kernel);
+    return row.stage == Stage::articulations && (row.items == COUNT_ARTICULATIONS || row.items == items_given);
+  }
+  static uint32_t items_of_part(Kernel kernel)
+  {
+    if (is_group(kernel)) return 1;
+    return is_of_trees(kernel) ? trees_per_task : items_per_part;
+  }
 
   /* Of items, or of groups. */
   static std::pair<uint32_t, uint32_t> range_of(const Launch &launch, const uint32_t *counts)
@@ -238,7 +250,7 @@ private:
     {
       const Kernel kernel = series_[launch].launch.kernel;
       const auto [first, last] = MiniclBackend::range_of(series_[launch].launch, counts_);
-      return {first, last, is_group(kernel) ? 1 : items_per_part, backend_.has_lanes(kernel)};
+      return {first, last, items_of_part(kernel), backend_.has_lanes(kernel)};
     }
     void run(size_t launch, uint32_t first, uint32_t last) override
     {
@@ -259,8 +271,9 @@ private:
   {
     uint32_t items = 0, parts = 1;
     for (const BoundLaunch &bound : series) {
-      items = std::max(items, bound.items);
-      parts = std::max(parts, bound.items / (is_group(bound.launch.kernel) ? TILE : items_per_part) + 1);
+      items = std::max(items, bound.items * (is_of_trees(bound.launch.kernel) ? items_like_a_tree : 1));
+      const Kernel kernel = bound.launch.kernel;
+      parts = std::max(parts, bound.items / (is_group(kernel) ? TILE : items_of_part(kernel)) + 1);
     }
     return items < items_worth_a_region ? 1 : parts;
   }
@@ -285,7 +298,11 @@ private:
     order.launch_ends();
   }
 
-  bool has_lanes(Kernel kernel) const { return !lanes_.empty() && lanes_.front().run.at(index_of(kernel)); }
+  bool has_lanes(Kernel kernel) const
+  {
+    return std::any_of(lanes_.begin(), lanes_.end(),
+                       [&](const Lanes &lanes) { return lanes.run.at(index_of(kernel)) != nullptr; });
+  }
 
   void run_groups(Kernel kernel, void *const *arguments, uint32_t groups)
   {
@@ -299,8 +316,9 @@ private:
   {
     if (order_ != Order::forward) return run_permuted(scalar_.at(index_of(kernel)), arguments, first, last);
     const auto range = [&](uint32_t begin, uint32_t end) { run_in_lanes(kernel, arguments, begin, end); };
-    if (has_lanes(kernel)) parallel(first, last, items_per_task, tbb::static_partitioner{}, range);
-    else parallel(first, last, items_per_task, tbb::auto_partitioner{}, range);
+    const uint32_t grain = is_of_trees(kernel) ? trees_per_task : items_per_task;
+    if (has_lanes(kernel)) parallel(first, last, grain, tbb::static_partitioner{}, range);
+    else parallel(first, last, grain, tbb::auto_partitioner{}, range);
   }
 
   /* What is left by one width goes to the next: of 15 contacts of a colour 8 and 4 share instructions, and 3 have their

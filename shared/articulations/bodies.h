@@ -18,20 +18,36 @@
 /* Words of articulation_place: block, item, stride (tree.h), and the number of links. */
 #define PLACE_WORDS 4u
 
-SHARED articulation articulation_at(read_links links, write_link_states states, uint number)
+SHARED articulation articulation_at(read_links links, write_link_states states, uint_lanes number)
 {
-  GLOBAL const uint *place = links.place + PLACE_WORDS * number;
-  articulation t = {links.code, links.row, states.state, states.root, states.work, states.next,
-                    place[0],   place[1],  place[2],     place[3],    number,      place[3]};
+  uint_lanes place = PLACE_WORDS * number;
+  articulation t;
+  t.code = links.code;
+  t.link = links.row;
+  t.state = states.state;
+  t.root = states.root;
+  t.work = states.work;
+  t.next = states.next;
+  t.block = load_uint(links.place, place);
+  t.item = load_uint(links.place, place + 1u);
+  t.stride = load_uint(links.place, place + 2u);
+  t.links = load_uint(links.place, place + 3u);
+  t.number = number;
+  t.most_links = 0u;
+  while (any_of((uint_lanes)t.most_links < t.links)) ++t.most_links;
   return t;
 }
+SHARED mask has_links(const articulation *t) { return t->links > 0u; }
 
-SHARED uint body_of_link(read_links links, const articulation *t, uint k) { return links.body[tree_row(t, 1u, k, 0u)]; }
+SHARED uint_lanes body_of_link(read_links links, const articulation *t, uint_lanes k)
+{
+  return load_uint(links.body, tree_row(t, 1u, k, 0u));
+}
 
 /* Whether a contact has pushed a link in this substep: beside the force on a free root. */
 SHARED void note_pushed(const articulation *t, real pushed)
 {
-  store_root(1, t, (uint)ROOT_LINEAR_FORCE, extend(xyz(load_root(t, (uint)ROOT_LINEAR_FORCE)), pushed));
+  store_root(has_links(t), t, (uint)ROOT_LINEAR_FORCE, extend(xyz(load_root(t, (uint)ROOT_LINEAR_FORCE)), pushed));
 }
 SHARED mask is_pushed(const articulation *t) { return load_root(t, (uint)ROOT_LINEAR_FORCE).w != R(0.0); }
 
@@ -47,11 +63,17 @@ SHARED seen_body ground(void)
   seen_body g = {make_quat(R(0.0), R(0.0), R(0.0), R(1.0)), no_motion()};
   return g;
 }
-SHARED seen_body load_seen_body(read_bodies bodies, uint body)
+SHARED seen_body load_seen_body(read_bodies bodies, uint_lanes body)
 {
   spatial_velocity m = load_velocity(bodies.velocity, body);
   seen_body b = {quat_from(load_float4(bodies.orientation, body)), {m.angular, m.linear}};
   return b;
+}
+SHARED seen_body choose_seen_body(mask m, seen_body a, seen_body b)
+{
+  seen_body s = {quat_from(choose4(m, quat_to_vec4(a.orientation), quat_to_vec4(b.orientation))),
+                 choose_motion(m, a.velocity, b.velocity)};
+  return s;
 }
 
 /* The two frames of a joint as the bodies have them, in axes of the world. offset: between the centres; of a held root,
@@ -93,79 +115,92 @@ SHARED vec3 velocity_of_joint(tree_link l, seen_joint j, spatial_motion parent, 
   return choose3(l.is_free, own.angular, v);
 }
 
-SHARED vec3 offset_of_link(read_links links, read_bodies bodies, const articulation *t, tree_link l, uint body)
+/* The bodies of the link and of its parent; of a root, twice its own. */
+typedef struct {
+  uint_lanes own, parent;
+} linked_bodies;
+
+SHARED linked_bodies bodies_of_link(read_links links, const articulation *t, tree_link l)
 {
-  if (!l.is_root) return offset_between(bodies.position, body_of_link(links, t, l.parent), body);
-  return way_between(root_position(t), load_position(bodies.position, body));
+  uint_lanes own = body_of_link(links, t, l.k);
+  linked_bodies b = {own, choose(l.is_root, own, body_of_link(links, t, l.parent))};
+  return b;
+}
+
+SHARED vec3 offset_of_link(read_bodies bodies, const articulation *t, tree_link l, linked_bodies b)
+{
+  vec3 from_root = way_between(root_position(t), load_position(bodies.position, b.own));
+  return choose3(l.is_root, from_root, offset_between(bodies.position, b.parent, b.own));
 }
 
 /* The root stands where its body does, or where the ground holds it. */
 SHARED void read_root(read_links links, read_bodies bodies, const articulation *t)
 {
   tree_link root = tree_link_of(t, 0u);
-  uint body = body_of_link(links, t, 0u);
+  uint_lanes body = body_of_link(links, t, root.k);
   double_float3 at = {xyz(load_float4(links.ground, 2u * t->number)),
-                      xyz(load_float4(links.ground, 2u * t->number + 1u))};
-  vec3 linear = zero3();
-  if (root.is_free) {
-    at = load_position(bodies.position, body);
-    linear = load_velocity(bodies.velocity, body).linear;
-  }
-  store_root(1, t, (uint)ROOT_POSITION, extend(at.high, R(0.0)));
-  store_root(1, t, (uint)ROOT_POSITION + 1u, extend(at.low, R(0.0)));
-  store_root(1, t, (uint)ROOT_LINEAR_VELOCITY, extend(linear, R(0.0)));
-  store_root(1, t, (uint)ROOT_LINEAR_FORCE, extend(zero3(), R(0.0)));
+                      xyz(load_float4(links.ground, 2u * t->number + 1u))},
+                of_body = load_position(bodies.position, body);
+  at.high = choose3(root.is_free, of_body.high, at.high);
+  at.low = choose3(root.is_free, of_body.low, at.low);
+  vec3 linear = choose3(root.is_free, load_velocity(bodies.velocity, body).linear, zero3());
+  store_root(has_links(t), t, (uint)ROOT_POSITION, extend(at.high, R(0.0)));
+  store_root(has_links(t), t, (uint)ROOT_POSITION + 1u, extend(at.low, R(0.0)));
+  store_root(has_links(t), t, (uint)ROOT_LINEAR_VELOCITY, extend(linear, R(0.0)));
+  store_root(has_links(t), t, (uint)ROOT_LINEAR_FORCE, extend(zero3(), R(0.0)));
 }
 
 SHARED void read_link(read_links links, read_bodies bodies, const articulation *t, tree_link l)
 {
-  uint body = body_of_link(links, t, l.k);
-  seen_body own = load_seen_body(bodies, body), parent = ground();
-  if (!l.is_root) parent = load_seen_body(bodies, body_of_link(links, t, l.parent));
-  seen_joint j = seen_joint_between(t, l, parent, own, offset_of_link(links, bodies, t, l, body));
+  linked_bodies b = bodies_of_link(links, t, l);
+  seen_body own = load_seen_body(bodies, b.own),
+            parent = choose_seen_body(l.is_root, ground(), load_seen_body(bodies, b.parent));
+  seen_joint j = seen_joint_between(t, l, parent, own, offset_of_link(bodies, t, l, b));
   vec4 none = extend(zero3(), R(0.0));
-  store_state(1, t, l.k, (uint)STATE_JOINT_POSITION, position_of_joint(l, j));
-  store_state(1, t, l.k, (uint)STATE_JOINT_VELOCITY,
+  store_state(l.exists, t, l.k, (uint)STATE_JOINT_POSITION, position_of_joint(l, j));
+  store_state(l.exists, t, l.k, (uint)STATE_JOINT_VELOCITY,
               extend(velocity_of_joint(l, j, parent.velocity, own.velocity), R(0.0)));
-  for (uint row = (uint)STATE_JOINT_FORCE; row < (uint)STATE_ROWS; ++row) store_state(1, t, l.k, row, none);
+  for (uint row = (uint)STATE_JOINT_FORCE; row < (uint)STATE_ROWS; ++row) store_state(l.exists, t, l.k, row, none);
 }
 
 SHARED void read_articulation(read_links links, read_bodies bodies, const articulation *t)
 {
   read_root(links, bodies, t);
-  for (uint k = 0; k < t->links; ++k) read_link(links, bodies, t, tree_link_of(t, k));
+  for (uint k = 0; k < t->most_links; ++k) read_link(links, bodies, t, tree_link_of(t, k));
 }
 
 /* --- from coordinates to bodies ------------------------------------------------------------------------------- */
-SHARED void write_velocity(read_links links, const articulation *t, uint k, GLOBAL float4 *solver_velocity)
+SHARED void write_velocity(read_links links, const articulation *t, tree_link l, GLOBAL float4 *solver_velocity)
 {
-  uint body = body_of_link(links, t, k);
+  uint_lanes body = body_of_link(links, t, l.k);
   spatial_velocity m = load_velocity(solver_velocity, body);
-  spatial_motion now = load_motion(t, k, (uint)WORK_VELOCITY);
+  spatial_motion now = load_motion(t, l.k, (uint)WORK_VELOCITY);
   m.linear = now.linear;
   m.angular = now.angular;
-  store_velocity(solver_velocity, body, m);
+  store_velocity_if(l.exists, solver_velocity, body, m);
 }
 SHARED void write_velocities(read_links links, const articulation *t, GLOBAL float4 *solver_velocity)
 {
-  for (uint k = 0; k < t->links; ++k) write_velocity(links, t, k, solver_velocity);
+  for (uint k = 0; k < t->most_links; ++k) write_velocity(links, t, tree_link_of(t, k), solver_velocity);
 }
 
 /* What the step has moved the body by, from where it began. */
-SHARED void write_pose(read_links links, read_bodies bodies, const articulation *t, uint k, GLOBAL float4 *delta_pose,
-                       GLOBAL float4 *orientation)
+SHARED void write_pose(read_links links, read_bodies bodies, const articulation *t, tree_link l,
+                       GLOBAL float4 *delta_pose, GLOBAL float4 *orientation)
 {
-  uint body = body_of_link(links, t, k);
-  vec3 moved = way_between(load_position(bodies.position, body), link_position(t, k));
-  quat q = quat_from(load_work(t, k, (uint)WORK_ORIENTATION)), from = quat_from(load_float4(bodies.orientation, body));
-  store_float4(delta_pose, body * 2u, extend(moved, R(0.0)));
-  store_float4(delta_pose, body * 2u + 1u, extend(rotation_vector(quat_multiply(q, conjugate(from))), R(0.0)));
-  store_float4(orientation, body, quat_to_vec4(q));
+  uint_lanes body = body_of_link(links, t, l.k);
+  vec3 moved = way_between(load_position(bodies.position, body), link_position(t, l.k));
+  quat q = quat_from(load_work(t, l.k, (uint)WORK_ORIENTATION)),
+       from = quat_from(load_float4(bodies.orientation, body));
+  vec3 turned_by = rotation_vector(quat_multiply(q, conjugate(from)));
+  store_float4_if(l.exists, delta_pose, body * 2u, extend(moved, R(0.0)));
+  store_float4_if(l.exists, delta_pose, body * 2u + 1u, extend(turned_by, R(0.0)));
+  store_float4_if(l.exists, orientation, body, quat_to_vec4(q));
 }
 SHARED void write_poses(read_links links, read_bodies bodies, const articulation *t, GLOBAL float4 *delta_pose,
                         GLOBAL float4 *orientation)
 {
-  for (uint k = 0; k < t->links; ++k) write_pose(links, bodies, t, k, delta_pose, orientation);
+  for (uint k = 0; k < t->most_links; ++k) write_pose(links, bodies, t, tree_link_of(t, k), delta_pose, orientation);
 }
 
 #endif

@@ -64,11 +64,25 @@ SHARED symmetric6 inertia_of_tree(const articulation *t)
   return sum;
 }
 
+/* The centre of mass, from that of the root. */
+SHARED vec3 center_of_tree(const articulation *t)
+{
+  vec3 sum = zero3();
+  real mass = R(0.0);
+  for (uint k = 0; k < t->most_links; ++k) {
+    tree_link l = tree_link_of(t, k);
+    real own = choose(l.exists, mass_of_link(t, l), (real)R(0.0));
+    sum = add_scaled(sum, xyz(load_work(t, l.k, (uint)WORK_OFFSET)), own);
+    mass = mass + own;
+  }
+  return scale(sum, inverse_if_positive(mass));
+}
+
 /* What free motion keeps. drift: the velocity of the centre of mass of a free tree, from which the energy is seen, so
  * that none of it is lost in that of a tree which is carried along; J. momentum: about the centre of the root. */
 typedef struct {
   spatial_force momentum;
-  vec3 drift;
+  vec3 drift, center; /* center: of mass, from that of the root */
   real energy;
 } conserved;
 
@@ -87,6 +101,7 @@ SHARED conserved conserved_of_tree(const articulation *t)
   c.momentum = momentum_of_tree(t);
   vec3 drift = scale(c.momentum.force, inverse_if_positive(mass_of_tree(t)));
   c.drift = choose3(tree_link_of(t, 0u).is_free, drift, zero3());
+  c.center = center_of_tree(t);
   c.energy = energy_of_tree(t, c.drift);
   return c;
 }
@@ -95,7 +110,7 @@ SHARED conserved conserved_of_tree(const articulation *t)
 SHARED mask has_changed_energy(const articulation *t, conserved before, real share)
 {
   real change = magnitude(energy_of_tree(t, before.drift) - before.energy);
-  return !(change <= share * before.energy) & (t->links > 0u);
+  return (!(change <= share * before.energy)) & (t->links > 0u);
 }
 
 SHARED void set_root_motion_if(mask wanted, const articulation *t, spatial_motion m)
@@ -135,6 +150,7 @@ SHARED void scale_link_if(mask wanted, const articulation *t, tree_link l, spati
 
 /* What of the energy is in motion within the tree, below this share is nothing but rounding. */
 #define LEAST_ENERGY_WITHIN R(1e-4)
+#define ENERGY_ROUNDING R(1e-6)
 
 /* The factor of velocities that takes an energy to another; a gain is limited, because little energy has no direction
  * that is worth much. */
@@ -165,12 +181,12 @@ SHARED void hold_energy_if(mask wanted, const articulation *t, conserved kept, s
   mask scales = wanted & (within > LEAST_ENERGY_WITHIN * of_turns);
   scale_links_if(scales, t, add_motions(drifts, turns), factor_of_energies(within, kept.energy - of_turns));
   real now = energy_of_tree(t, kept.drift);
-  mask exceeds = wanted & (now > (R(1.0) + LEAST_ENERGY_WITHIN) * kept.energy);
+  mask exceeds = wanted & (now > (R(1.0) + ENERGY_ROUNDING) * kept.energy);
   if (any_of(exceeds)) scale_links_if(exceeds, t, drifts, factor_of_energies(now, kept.energy));
 }
 
-/* A substep that changes so little of the energy has the errors of a symmetric rule, which do not add up. */
-#define LARGEST_CHANGE_IN_SUBSTEP R(2e-4)
+/* A substep that changes so little of the energy has the errors of a symmetric rule, which hardly add up. */
+#define LARGEST_CHANGE_IN_SUBSTEP R(2e-5)
 
 /* kept: before the motion, the momentum about where the centre of the root is now. */
 SHARED void conserve(const articulation *t, conserved kept)

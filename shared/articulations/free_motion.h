@@ -9,8 +9,8 @@
  * 2006). The first half defines u by itself and is iterated; each of its rounds reduces the error by the angle of a
  * turn in half a substep.
  *
- * Trees that turn too fast for the rounds to converge skip the first half. Last, momentum and energy become what they
- * were (conserved.h), so no speed makes a tree fly apart.
+ * Trees that turn too fast for the rounds to converge skip the first half. The centre of mass of a free tree moves
+ * straight; last, momentum and energy become what they were (conserved.h), so no speed makes a tree fly apart.
  */
 #ifndef TANDEM_SHARED_ARTICULATIONS_FREE_MOTION_H
 #define TANDEM_SHARED_ARTICULATIONS_FREE_MOTION_H
@@ -89,6 +89,20 @@ SHARED void prepare_tree(const articulation *t, real h)
   clear_pending(t);
 }
 
+/* The centre of mass of a free tree moves straight, whatever the root does beside it. */
+SHARED vec3 way_missed_by_center(const articulation *t, conserved before, vec3 way_of_root, real h)
+{
+  vec3 moved = add(way_of_root, subtract(center_of_tree(t), before.center));
+  return choose3(tree_link_of(t, 0u).is_free, subtract(scale(before.drift, h), moved), zero3());
+}
+SHARED void move_root_by(const articulation *t, vec3 way)
+{
+  mask free = tree_link_of(t, 0u).is_free & (t->links > 0u);
+  double_float3 at = moved_position(root_position(t), way);
+  store_root(free, t, (uint)ROOT_POSITION, extend(at.high, R(0.0)));
+  store_root(free, t, (uint)ROOT_POSITION + 1u, extend(at.low, R(0.0)));
+}
+
 /* The rounds did not converge if half a substep, which should change next to nothing of the energy, changes so much. */
 #define LARGEST_CHANGE_IN_HALF R(0.02)
 
@@ -100,8 +114,10 @@ SHARED void move_tree_freely(const articulation *t, real h)
   if (any_of(fast)) return_velocities_if(fast, t);
   vec3 way = scale(root_velocity(t), h); /* of the root; a difference of positions would depend on where the tree is */
   advance_joints(t, h);
-  kept.momentum = force_at(kept.momentum, way);
   prepare_tree(t, h);
+  vec3 missed = way_missed_by_center(t, kept, way, h);
+  move_root_by(t, missed);
+  kept.momentum = force_at(kept.momentum, add(way, missed));
   second_half(t, h);
   conserve(t, kept);
 }

@@ -22,6 +22,7 @@
  * the energy that closing gives where the trees can hardly move. */
 #define LINK_COMPLIANCE R(1e-4)
 #define CLOSING_COMPLIANCE R(0.02)
+#define LINK_CLOSING R(2.0) /* m/s, rad/s: no faster, because the pull of a joint that stays open bends the tree */
 
 typedef struct {
   pushed_pair ends;
@@ -191,7 +192,7 @@ SHARED vec3 solve_link_rows(GLOBAL const Parameters *parameters, const link_join
   symmetric3 k = response_of_block(j, b);
   vec3 rigid = solve_symmetric(rows_of_axes(locked, k), speed);
   if (pass != (uint)PASS_BIASED) return subtract(old, rigid);
-  soft_rows rows = soft_rows_of(parameters, open);
+  soft_rows rows = soft_rows_of(parameters, open, LINK_CLOSING, R(1.0));
   rigid = add(rigid, solve_symmetric(rows_of_axes(locked, response_while_closing(j, b, k)), rows.closing));
   return subtract(subtract(old, scale(rigid, parameters->joint_mass_scale)), scale(old, rows.leak));
 }

@@ -15,9 +15,9 @@
 #include "shared/articulations/rows.h"
 
 SHARED void begin_articulations_item(GLOBAL const Parameters *parameters, read_links links, read_bodies bodies,
-                                     write_link_states states, write_moved_bodies moved, uint i)
+                                     write_link_states states, write_moved_bodies moved, item_index i)
 {
-  articulation t = articulation_at(links, states, i);
+  articulation t = articulation_at(links, states, (uint_lanes)i);
   read_articulation(links, bodies, &t);
   prepare_tree(&t, parameters->substep);
   write_velocities(links, &t, moved.velocity);
@@ -27,18 +27,17 @@ SHARED void begin_articulations_item(GLOBAL const Parameters *parameters, read_l
 /* Adds what pushes a link besides the gravity that all links have: the force on its body, and the share of gravity by
  * which its factor differs from 1. has_forces: whether the scene has forces. */
 SHARED void load_body_force(read_links links, GLOBAL const float4 *body_mass, GLOBAL const float4 *solver_force,
-                            const articulation *t, uint k, vec3 gravity, uint has_forces)
+                            const articulation *t, tree_link l, vec3 gravity, uint has_forces)
 {
-  uint body = body_of_link(links, t, k);
-  tree_link l = tree_link_of(t, k);
-  vec3 force = xyz(load_state(t, k, (uint)STATE_FORCE)), moment = xyz(load_state(t, k, (uint)STATE_MOMENT));
+  uint_lanes body = body_of_link(links, t, l.k);
+  vec3 force = xyz(load_state(t, l.k, (uint)STATE_FORCE)), moment = xyz(load_state(t, l.k, (uint)STATE_MOMENT));
   force = add_scaled(force, gravity, mass_of_link(t, l) * (load_float4(body_mass, body).w - R(1.0)));
   if (has_forces) {
     force = add(force, xyz(load_float4(solver_force, body * 2u)));
     moment = add(moment, xyz(load_float4(solver_force, body * 2u + 1u)));
   }
-  store_state(1, t, k, (uint)STATE_FORCE, extend(force, R(0.0)));
-  store_state(1, t, k, (uint)STATE_MOMENT, extend(moment, R(0.0)));
+  store_state(l.exists, t, l.k, (uint)STATE_FORCE, extend(force, R(0.0)));
+  store_state(l.exists, t, l.k, (uint)STATE_MOMENT, extend(moment, R(0.0)));
 }
 
 /* STATE_FORCE and STATE_MOMENT hold what the contacts of the last substep pushed with; those of this one are gathered
@@ -46,20 +45,22 @@ SHARED void load_body_force(read_links links, GLOBAL const float4 *body_mass, GL
 SHARED void clear_outer_forces(const articulation *t)
 {
   vec4 none = extend(zero3(), R(0.0));
-  for (uint k = 0; k < t->links; ++k) {
-    store_state(1, t, k, (uint)STATE_FORCE, none);
-    store_state(1, t, k, (uint)STATE_MOMENT, none);
+  for (uint k = 0; k < t->most_links; ++k) {
+    tree_link l = tree_link_of(t, k);
+    store_state(l.exists, t, l.k, (uint)STATE_FORCE, none);
+    store_state(l.exists, t, l.k, (uint)STATE_MOMENT, none);
   }
 }
 
 SHARED void accelerate_articulations_item(GLOBAL const Parameters *parameters, read_links links,
                                           GLOBAL const float4 *body_mass, GLOBAL const float4 *body_gravity,
                                           GLOBAL const float4 *solver_force, write_link_states states,
-                                          GLOBAL float4 *solver_velocity, uint has_forces, uint i)
+                                          GLOBAL float4 *solver_velocity, uint has_forces, item_index i)
 {
-  articulation t = articulation_at(links, states, i);
-  vec3 gravity = gravity_at(parameters, body_gravity, body_of_link(links, &t, 0u));
-  for (uint k = 0; k < t.links; ++k) load_body_force(links, body_mass, solver_force, &t, k, gravity, has_forces);
+  articulation t = articulation_at(links, states, (uint_lanes)i);
+  vec3 gravity = gravity_at(parameters, body_gravity, body_of_link(links, &t, (uint_lanes)0u));
+  for (uint k = 0; k < t.most_links; ++k)
+    load_body_force(links, body_mass, solver_force, &t, tree_link_of(&t, k), gravity, has_forces);
   accelerate_tree(&t, gravity, parameters->substep);
   clear_outer_forces(&t);
   write_velocities(links, &t, solver_velocity);
@@ -67,9 +68,9 @@ SHARED void accelerate_articulations_item(GLOBAL const Parameters *parameters, r
 
 /* pass: PASS_BOUNCING has no rows; it settles what the contacts have pushed. */
 SHARED void solve_articulations_item(GLOBAL const Parameters *parameters, read_links links, write_link_states states,
-                                     GLOBAL float4 *solver_velocity, uint pass, uint i)
+                                     GLOBAL float4 *solver_velocity, uint pass, item_index i)
 {
-  articulation t = articulation_at(links, states, i);
+  articulation t = articulation_at(links, states, (uint_lanes)i);
   if (pass != (uint)PASS_BOUNCING) solve_tree_rows(parameters, &t, pass);
   settle_tree(&t);
   write_velocities(links, &t, solver_velocity);
@@ -77,33 +78,35 @@ SHARED void solve_articulations_item(GLOBAL const Parameters *parameters, read_l
 
 /* Whether a free tree falls as one body does whose contacts are out of reach (integrate/positions.h): all of its links
  * have the gravity of the world, and no contact bears or has pushed any. */
-SHARED uint tree_falls_freely(read_links links, GLOBAL const float4 *body_mass, GLOBAL const uint *body_falls,
+SHARED mask tree_falls_freely(read_links links, GLOBAL const float4 *body_mass, GLOBAL const uint *body_falls,
                               const articulation *t)
 {
-  uint falls = tree_link_of(t, 0u).is_free && !is_pushed(t) ? 1u : 0u;
-  for (uint k = 0; k < t->links; ++k) {
-    uint body = body_of_link(links, t, k);
-    if (body_falls[body] == 0u || load_float4(body_mass, body).w != R(1.0)) falls = 0u;
+  mask falls = tree_link_of(t, 0u).is_free & !is_pushed(t) & has_links(t);
+  for (uint k = 0; k < t->most_links; ++k) {
+    tree_link l = tree_link_of(t, k);
+    uint_lanes body = body_of_link(links, t, l.k);
+    mask touches = load_uint(body_falls, body) == 0u, has_own_gravity = load_float4(body_mass, body).w != R(1.0);
+    falls = falls & !(l.exists & (touches | has_own_gravity));
   }
   return falls;
 }
 
 /* Takes back what the symplectic Euler step falls too far, so that the tree moves on the exact parabola. */
-SHARED void return_to_parabola(const articulation *t, vec3 gravity, real h)
+SHARED void return_to_parabola_if(mask falls, const articulation *t, vec3 gravity, real h)
 {
   double_float3 at = moved_position(root_position(t), scale(gravity, R(-0.5) * h * h));
-  store_root(1, t, (uint)ROOT_POSITION, extend(at.high, R(0.0)));
-  store_root(1, t, (uint)ROOT_POSITION + 1u, extend(at.low, R(0.0)));
+  store_root(falls, t, (uint)ROOT_POSITION, extend(at.high, R(0.0)));
+  store_root(falls, t, (uint)ROOT_POSITION + 1u, extend(at.low, R(0.0)));
 }
 
 SHARED void move_articulations_item(GLOBAL const Parameters *parameters, read_links links, read_bodies bodies,
                                     GLOBAL const float4 *body_mass, GLOBAL const uint *body_falls,
-                                    write_link_states states, write_moved_bodies moved, uint i)
+                                    write_link_states states, write_moved_bodies moved, item_index i)
 {
-  articulation t = articulation_at(links, states, i);
+  articulation t = articulation_at(links, states, (uint_lanes)i);
   move_tree_freely(&t, parameters->substep);
-  if (tree_falls_freely(links, body_mass, body_falls, &t))
-    return_to_parabola(&t, gravity_at(parameters, bodies.gravity, body_of_link(links, &t, 0u)), parameters->substep);
+  vec3 gravity = gravity_at(parameters, bodies.gravity, body_of_link(links, &t, (uint_lanes)0u));
+  return_to_parabola_if(tree_falls_freely(links, body_mass, body_falls, &t), &t, gravity, parameters->substep);
   note_pushed(&t, R(0.0));
   write_velocities(links, &t, moved.velocity);
   write_poses(links, bodies, &t, moved.delta, moved.orientation);

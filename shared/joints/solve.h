@@ -27,13 +27,13 @@ typedef struct {
 /* Where the way is so long that its closing is limited, less leaks in proportion, because a leak that stayed the same
  * would let a heavy load draw the joint out for ever. Some leaks always: joints that contradict each other would
  * otherwise pull with any force. */
-SHARED soft_rows soft_rows_of(GLOBAL const Parameters *parameters, vec3 open)
+SHARED soft_rows soft_rows_of(GLOBAL const Parameters *parameters, vec3 open, real fastest, real least_leak)
 {
   vec3 closing = scale(open, parameters->joint_bias_rate);
   real squared = length_squared(closing);
-  mask limited = squared > JOINT_CLOSING * JOINT_CLOSING;
-  real share = choose(limited, JOINT_CLOSING / square_root(choose(limited, squared, (real)R(1.0))), (real)R(1.0));
-  soft_rows rows = {scale(closing, share), parameters->joint_impulse_scale * maximum(share, LEAST_LEAK)};
+  mask limited = squared > fastest * fastest;
+  real share = choose(limited, fastest / square_root(choose(limited, squared, (real)R(1.0))), (real)R(1.0));
+  soft_rows rows = {scale(closing, share), parameters->joint_impulse_scale * maximum(share, least_leak)};
   return rows;
 }
 
@@ -41,7 +41,7 @@ SHARED soft_rows soft_rows_of(GLOBAL const Parameters *parameters, vec3 open)
 SHARED vec3 solve_rows(GLOBAL const Parameters *parameters, symmetric3 k, vec3 velocity, vec3 open, vec3 old, uint pass)
 {
   if (pass != PASS_BIASED) return subtract(old, solve_symmetric(k, velocity));
-  soft_rows rows = soft_rows_of(parameters, open);
+  soft_rows rows = soft_rows_of(parameters, open, JOINT_CLOSING, LEAST_LEAK);
   vec3 rigid = solve_symmetric(k, add(velocity, rows.closing));
   return subtract(subtract(old, scale(rigid, parameters->joint_mass_scale)), scale(old, rows.leak));
 }

@@ -86,6 +86,7 @@ inline Scene joined_trees(uint64_t seed = 1, uint32_t trees = 10)
     const Vector from = a == no_body ? vector_of(scene.bodies[b].position) : vector_of(scene.bodies[a].position);
     const Vector at = 0.5 * (from + vector_of(scene.bodies[b].position));
     Joint &joint = connect(scene, types[random.below(8)], a, b, at, direction(random));
+    if (joint.type == JointType::distance) joint.directions[0].upper = 0.05f;
     if (joint.type == JointType::cylindrical) joint.rotations[0].damping = 0.5f;
     if (joint.type == JointType::hinge) joint.rotations[0] = {.lower = -0.4f, .upper = 0.5f, .stiffness = 5};
     if (joint.type == JointType::slider) joint.directions[0] = {.target_velocity = 1, .motor = true, .max_force = 4};

@@ -44,8 +44,10 @@ TEST_CASE("parity on CPU: joints that hold links, whose trees have loops and han
   Scene hub = tree_crowd(1, 4, 0); /* past the last colour */
   for (uint32_t k = 0; k < 70; ++k) {
     const auto body = uint32_t(hub.bodies.size());
-    add_body(hub, BodyType::dynamic, sphere_shape(0.05f), {0.1 * k, 4, 0.1}).mass = 0.1f;
-    connect(hub, JointType::distance, hub.articulations[0].root, body, {0.1 * k, 4, 0.1}).rotations = {};
+    add_body(hub, BodyType::dynamic, sphere_shape(0.05f), {0.02 * k, 1.2, 0.1}).mass = 0.1f;
+    const JointType type = k % 3 == 0 ? JointType::ball : k % 3 == 1 ? JointType::hinge : JointType::distance;
+    connect(hub, type, hub.articulations[0].root, body, {0.02 * k, 1.2, 0.1}).directions[0].upper = 0.01f;
+    if (type != JointType::distance) hub.joints.back().directions[0] = {};
   }
   require_parity(hub, cpu_backends(), 10, watched());
 }

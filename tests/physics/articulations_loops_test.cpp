@@ -185,21 +185,21 @@ TEST_CASE("joints of links come, break and go while a world runs", "[articulatio
 TEST_CASE("loops that contradict each other pull, and neither explode nor give way to what is not finite",
           "[articulations]")
 {
-  for (const JointType type : {JointType::ball, JointType::fixed, JointType::hinge})
-    for (const double gap : {0.01, 0.5, 10.0}) {
+  for (const JointType type : {JointType::ball, JointType::fixed, JointType::hinge, JointType::universal})
+    for (const double gap : {0.01, 0.5, 10.0, -0.01, -0.5}) { /* below 0: hinges about two axes in turn */
       Scene scene = empty_scene({0, -10, 0});
       for (uint32_t k = 0; k < 6; ++k) {
         add_loose_box(scene, {0.2f, 0.05f, 0.05f}, {0.4 * k, 2, 0}, 1);
-        connect(scene, k % 2 ? JointType::hinge : JointType::ball, k > 0 ? k - 1 : no_body, k, {0.4 * k - 0.2, 2, 0},
-                Vector::UnitZ());
+        connect(scene, gap < 0 || k % 2 ? JointType::hinge : JointType::ball, k > 0 ? k - 1 : no_body, k,
+                {0.4 * k - 0.2, 2, 0}, gap < 0 && k % 2 ? Vector::UnitY() : Vector::UnitZ());
       }
       articulate(scene);
-      connect(scene, type, no_body, 5, {2.2, 2, 0}).position_a = {2.2 + gap, 2, gap / 2};
+      connect(scene, type, no_body, 5, {2.2, 2, 0}).position_a = {2.2 + std::abs(gap), 2, gap / 2};
       connect(scene, type, 1, 4, {0.4, 2, 0}).position_b = {0, 0, 0};
       World world(scene, {}, on_one);
       for (int k = 0; k < 300; ++k) {
         world.step();
-        CHECK(fastest(world) < 500);
+        CHECK(fastest(world) < 50);
       }
       CHECK(world.quarantined().empty());
     }
