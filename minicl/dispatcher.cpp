@@ -269,10 +269,11 @@ private:
   /* More threads than the largest launch has parts would come for nothing. */
   static uint32_t threads_for(std::span<const BoundLaunch> series)
   {
-    uint32_t items = 0, parts = 1;
+    uint64_t items = 0;
+    uint32_t parts = 1;
     for (const BoundLaunch &bound : series) {
-      items = std::max(items, bound.items * (is_of_trees(bound.launch.kernel) ? items_like_a_tree : 1));
       const Kernel kernel = bound.launch.kernel;
+      items = std::max(items, uint64_t{bound.items} * (is_of_trees(kernel) ? items_like_a_tree : 1));
       parts = std::max(parts, bound.items / (is_group(kernel) ? TILE : items_of_part(kernel)) + 1);
     }
     return items < items_worth_a_region ? 1 : parts;

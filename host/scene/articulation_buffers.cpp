@@ -39,18 +39,18 @@ std::array<float4, LINK_ROWS - LINK_MOMENTS> axis_rows_of(const Scene &scene, co
           axis_row[2]};
 }
 
-std::vector<uint32_t> lengths_of(const std::vector<std::vector<OrderedLink>> &trees)
+template <class Link> std::vector<TreePlace> places_of(const std::vector<std::vector<Link>> &trees)
 {
   std::vector<uint32_t> lengths;
-  for (const std::vector<OrderedLink> &links : trees) lengths.push_back(static_cast<uint32_t>(links.size()));
-  return lengths;
+  for (const std::vector<Link> &links : trees) lengths.push_back(static_cast<uint32_t>(links.size()));
+  return tree_places(lengths);
 }
 
 /* The tables of all trees. */
 class LinkTables {
 public:
   LinkTables(const Scene &scene, const std::vector<std::vector<OrderedLink>> &trees, size_t room)
-      : scene_(scene), trees_(trees), places_(tree_places(lengths_of(trees)))
+      : scene_(scene), trees_(trees), places_(places_of(trees))
   {
     for (uint32_t index = 0; index < room; ++index) body_link_.insert(body_link_.end(), {index, INDEX_NONE, 0});
     size_t links = 0;
@@ -225,9 +225,7 @@ JointedLinks links_of(const Scene &scene)
       ++links.count;
     }
   }
-  std::vector<uint32_t> lengths;
-  for (const std::vector<uint32_t> &bodies : links.trees) lengths.push_back(static_cast<uint32_t>(bodies.size()));
-  links.places = tree_places(lengths);
+  links.places = places_of(links.trees);
   return links;
 }
 

@@ -37,7 +37,6 @@ SHARED articulation articulation_at(read_links links, write_link_states states, 
   while (any_of((uint_lanes)t.most_links < t.links)) ++t.most_links;
   return t;
 }
-SHARED mask has_links(const articulation *t) { return t->links > 0u; }
 
 SHARED uint_lanes body_of_link(read_links links, const articulation *t, uint_lanes k)
 {

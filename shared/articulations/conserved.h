@@ -65,17 +65,15 @@ SHARED symmetric6 inertia_of_tree(const articulation *t)
 }
 
 /* The centre of mass, from that of the root. */
-SHARED vec3 center_of_tree(const articulation *t)
+SHARED vec3 center_of_tree(const articulation *t, real inverse_mass)
 {
   vec3 sum = zero3();
-  real mass = R(0.0);
   for (uint k = 0; k < t->most_links; ++k) {
     tree_link l = tree_link_of(t, k);
     real own = choose(l.exists, mass_of_link(t, l), (real)R(0.0));
     sum = add_scaled(sum, xyz(load_work(t, l.k, (uint)WORK_OFFSET)), own);
-    mass = mass + own;
   }
-  return scale(sum, inverse_if_positive(mass));
+  return scale(sum, inverse_mass);
 }
 
 /* What free motion keeps. drift: the velocity of the centre of mass of a free tree, from which the energy is seen, so
@@ -83,7 +81,7 @@ SHARED vec3 center_of_tree(const articulation *t)
 typedef struct {
   spatial_force momentum;
   vec3 drift, center; /* center: of mass, from that of the root */
-  real energy;
+  real energy, inverse_mass;
 } conserved;
 
 SHARED real mass_of_tree(const articulation *t)
@@ -99,9 +97,10 @@ SHARED conserved conserved_of_tree(const articulation *t)
 {
   conserved c;
   c.momentum = momentum_of_tree(t);
-  vec3 drift = scale(c.momentum.force, inverse_if_positive(mass_of_tree(t)));
+  c.inverse_mass = inverse_if_positive(mass_of_tree(t));
+  vec3 drift = scale(c.momentum.force, c.inverse_mass);
   c.drift = choose3(tree_link_of(t, 0u).is_free, drift, zero3());
-  c.center = center_of_tree(t);
+  c.center = center_of_tree(t, c.inverse_mass);
   c.energy = energy_of_tree(t, c.drift);
   return c;
 }
@@ -110,7 +109,7 @@ SHARED conserved conserved_of_tree(const articulation *t)
 SHARED mask has_changed_energy(const articulation *t, conserved before, real share)
 {
   real change = magnitude(energy_of_tree(t, before.drift) - before.energy);
-  return (!(change <= share * before.energy)) & (t->links > 0u);
+  return (!(change <= share * before.energy)) & has_links(t);
 }
 
 SHARED void set_root_motion_if(mask wanted, const articulation *t, spatial_motion m)
@@ -191,7 +190,7 @@ SHARED void hold_energy_if(mask wanted, const articulation *t, conserved kept, s
 /* kept: before the motion, the momentum about where the centre of the root is now. */
 SHARED void conserve(const articulation *t, conserved kept)
 {
-  mask free = tree_link_of(t, 0u).is_free & (t->links > 0u);
+  mask free = tree_link_of(t, 0u).is_free & has_links(t);
   spatial_motion drifts = no_motion(), turns = no_motion();
   real of_turns = R(0.0);
   if (any_of(free)) {

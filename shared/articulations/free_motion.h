@@ -47,7 +47,7 @@ SHARED void note_velocities(const articulation *t)
     tree_link l = tree_link_of(t, k);
     store_work(l.exists, t, l.k, (uint)WORK_START, load_state(t, l.k, (uint)STATE_JOINT_VELOCITY));
   }
-  store_root(t->links > 0u, t, (uint)ROOT_START, load_root(t, (uint)ROOT_LINEAR_VELOCITY));
+  store_root(has_links(t), t, (uint)ROOT_START, load_root(t, (uint)ROOT_LINEAR_VELOCITY));
 }
 /* The links keep their velocities, from which the next round starts. */
 SHARED void return_velocities_if(mask wanted, const articulation *t)
@@ -65,7 +65,7 @@ SHARED void first_half(const articulation *t, real h)
   note_velocities(t);
   for (uint round = 0; round < FREE_MOTION_ROUNDS; ++round) {
     load_inertial_forces(t, R(0.5) * h);
-    return_velocities_if(t->links > 0u, t);
+    return_velocities_if(has_links(t), t);
     push_all_links(t);
     settle_tree(t);
     move_links(t);
@@ -92,12 +92,12 @@ SHARED void prepare_tree(const articulation *t, real h)
 /* The centre of mass of a free tree moves straight, whatever the root does beside it. */
 SHARED vec3 way_missed_by_center(const articulation *t, conserved before, vec3 way_of_root, real h)
 {
-  vec3 moved = add(way_of_root, subtract(center_of_tree(t), before.center));
+  vec3 moved = add(way_of_root, subtract(center_of_tree(t, before.inverse_mass), before.center));
   return choose3(tree_link_of(t, 0u).is_free, subtract(scale(before.drift, h), moved), zero3());
 }
 SHARED void move_root_by(const articulation *t, vec3 way)
 {
-  mask free = tree_link_of(t, 0u).is_free & (t->links > 0u);
+  mask free = tree_link_of(t, 0u).is_free & has_links(t);
   double_float3 at = moved_position(root_position(t), way);
   store_root(free, t, (uint)ROOT_POSITION, extend(at.high, R(0.0)));
   store_root(free, t, (uint)ROOT_POSITION + 1u, extend(at.low, R(0.0)));

@@ -28,7 +28,8 @@ typedef struct {
   pushed_pair ends;
   joint shape;
   joint_frames frames;
-  uint ancestor; /* of both links, if they are of one tree */
+  uint ancestor;                  /* of both links, if they are of one tree */
+  symmetric6 inverse_of_ancestor; /* inertia */
 } link_joint;
 
 SHARED pushed_side side_of_joint(read_links links, write_link_states states, joint_side s)
@@ -56,7 +57,11 @@ SHARED link_joint load_link_joint(GLOBAL const Parameters *parameters, read_join
   pushed_side a = side_of_joint(links, states, j.shape.a);
   pushed_side b = side_of_joint(links, states, j.shape.b);
   j.ends = pushed_pair_of(a, b);
-  j.ancestor = j.ends.is_within ? common_ancestor(&j.ends.a.tree, j.ends.a.k, j.ends.b.k) : 0u;
+  j.ancestor = 0u;
+  j.inverse_of_ancestor = zero_symmetric6();
+  if (!j.ends.is_within) return j;
+  j.ancestor = common_ancestor(&j.ends.a.tree, j.ends.a.k, j.ends.b.k);
+  j.inverse_of_ancestor = load_symmetric6(&j.ends.a.tree, j.ancestor);
   return j;
 }
 
@@ -91,9 +96,8 @@ SHARED real response_of_joint(const link_joint *j, const joint_row *first, const
 {
   real apart = response_apart(&j->ends, first->own, second->own);
   if (!j->ends.is_within) return apart;
-  symmetric6 inverse = load_symmetric6(&j->ends.a.tree, j->ancestor);
-  return apart - (power_of(second->at_ancestor.b, inverse_times(&inverse, first->at_ancestor.a)) +
-                  power_of(second->at_ancestor.a, inverse_times(&inverse, first->at_ancestor.b)));
+  return apart - (power_of(second->at_ancestor.b, inverse_times(&j->inverse_of_ancestor, first->at_ancestor.a)) +
+                  power_of(second->at_ancestor.a, inverse_times(&j->inverse_of_ancestor, first->at_ancestor.b)));
 }
 SHARED real response_alone(const link_joint *j, row_of_pair r)
 {

@@ -47,12 +47,8 @@ SHARED void solve_rows_of_link(GLOBAL const Parameters *parameters, const articu
 {
   axis_row r = row_of_link(t, l);
   vec4 kept = load_state(t, l.k, (uint)STATE_ROW_IMPULSE);
-  real start = pass == PASS_BIASED ? r.at.value : kept.w, sum = R(0.0);
-  real drive = solve_drive(parameters, &r, axis, start, kept.x, &sum);
-  real friction = solve_axis_friction(parameters, &r, axis->friction, kept.z, &sum);
-  limit_speed(&r, axis->largest_speed, &sum);
-  real limit = solve_limits(parameters, &r, axis, kept.y, pass, &sum);
-  store_state(l.exists, t, l.k, (uint)STATE_ROW_IMPULSE, make_vec4(drive, limit, friction, start));
+  real sum = solve_rows_of_axis(parameters, &r, axis, &kept, pass);
+  store_state(l.exists, t, l.k, (uint)STATE_ROW_IMPULSE, kept);
   push_link_if(l.exists, t, l.k, no_force(), make_vec3(sum, R(0.0), R(0.0)));
 }
 

@@ -33,6 +33,9 @@ typedef struct {
   uint most_links;   /* of any lane */
 } articulation;
 
+/* One of which a body is in quarantine has none. */
+SHARED mask has_links(const articulation *t) { return t->links > 0u; }
+
 /* A link of which the code is known. */
 typedef struct {
   uint_lanes k, parent;
