@@ -15,7 +15,7 @@ inline std::filesystem::path shared_data(const std::string &name)
   const char *given = std::getenv("TANDEM_SHARED_DATA");
   const std::filesystem::path folder =
       std::filesystem::path(given ? given : TANDEM_SOURCE_DIR "/../shared/data") / name;
-  if (!std::filesystem::is_directory(folder)) tests::skip("no data in " + folder.string());
+  if (!std::filesystem::is_directory(folder)) ::tests::skip("no data in " + folder.string());
   return folder;
 }
 

@@ -27,7 +27,8 @@ float4 float4_of(const std::array<double, 4> &row)
 /* Whether the drive is a part of the mass matrix: shared/articulations/drives.h. */
 bool is_implicit(const JointAxis &axis)
 {
-  return !axis.motor && (axis.stiffness > 0 || axis.damping > 0) && axis.max_force == JointAxis::unlimited;
+  return !axis.motor && (axis.stiffness > 0 || axis.damping > 0 || axis.force != 0) &&
+         axis.max_force == JointAxis::unlimited;
 }
 
 /* The row with the moments and those of the axis, which follow it. */
@@ -110,12 +111,40 @@ private:
 
 void check_joint_at_link(const Joint &joint, size_t index, const std::string &where)
 {
-  for (const UsedAxis &used : axes_used_by(joint))
-    if (used.axis.restitution > 0)
-      refuse(where, label("joint", index, joint.name), "has a limit that bounces; joints that hold links have none");
+  if (bounces(joint))
+    refuse(where, label("joint", index, joint.name), "has a limit that bounces; joints that hold links have none");
 }
 
-/* Refuses what a link, or the joint of one, cannot have within a step. */
+[[noreturn]] void refuse_link(const Scene &scene, const Articulation &articulation, uint32_t index,
+                              const std::string &where, const char *why)
+{
+  const std::string name =
+      articulation.name.empty() ? "articulation" : fmt::format("articulation '{}'", printable(articulation.name));
+  refuse(where, name, fmt::format("{} {}", label("body", index, scene.bodies[index].name), why));
+}
+
+/* Refuses what a link cannot have within a step. */
+void check_link(const Scene &scene, const Articulation &articulation, uint32_t index, const std::string &where)
+{
+  const Body &body = scene.bodies[index];
+  const auto fail = [&](const char *why) { refuse_link(scene, articulation, index, where, why); };
+  if (body.linear_damping > 0 || body.angular_damping > 0)
+    fail("has damping; joints of a tree have it, as JointAxis::damping");
+  if (body.max_linear_speed < JointAxis::unlimited || body.max_angular_speed < JointAxis::unlimited)
+    fail("has a highest speed; links have none, joints have JointAxis::max_speed");
+  if (body.continuous) fail("is continuous; links are not");
+}
+
+void check_links(const Scene &scene, const Articulation &articulation, const std::vector<OrderedLink> &links,
+                 const std::string &where)
+{
+  for (const OrderedLink &l : links) {
+    check_link(scene, articulation, l.link.body, where);
+    if (l.link.joint != ArticulationLink::none) check_joint_of_tree(scene.joints[l.link.joint], l.link.joint, where);
+  }
+}
+
+/* Refuses what the articulations of a scene, and what is beside them, cannot have within a step. */
 class LinkChecks {
 public:
   LinkChecks(const Scene &scene, const std::string &where)
@@ -124,12 +153,13 @@ public:
 
   void check(const Articulation &articulation, const std::vector<OrderedLink> &links)
   {
-    articulation_ = &articulation;
     for (const OrderedLink &l : links) {
-      check_body(l.link.body);
-      if (l.link.joint != ArticulationLink::none)
-        check_joint_of_tree(scene_.joints[l.link.joint], l.link.joint, where_);
+      if (linked_[l.link.body])
+        refuse_link(scene_, articulation, l.link.body, where_,
+                    "is a link of another articulation, too; one tree holds a body");
+      linked_[l.link.body] = true;
     }
+    check_links(scene_, articulation, links, where_);
   }
   /* Joints and couplings besides those of the trees. */
   void check_others() const
@@ -156,27 +186,8 @@ private:
       refuse(where_, label("coupling", coupling, scene_.couplings[coupling].name),
              fmt::format("couples joint {}, which {}; couplings are of other joints", joint, what));
   }
-  [[noreturn]] void fail(const std::string &what, const std::string &why) const
-  {
-    const std::string name =
-        articulation_->name.empty() ? "articulation" : fmt::format("articulation '{}'", printable(articulation_->name));
-    refuse(where_, name, what + " " + why);
-  }
-  void check_body(uint32_t index)
-  {
-    const Body &body = scene_.bodies[index];
-    const std::string name = label("body", index, body.name);
-    if (linked_[index]) fail(name, "is a link of another articulation, too; one tree holds a body");
-    linked_[index] = true;
-    if (body.linear_damping > 0 || body.angular_damping > 0)
-      fail(name, "has damping; joints of a tree have it, as JointAxis::damping");
-    if (body.max_linear_speed < JointAxis::unlimited || body.max_angular_speed < JointAxis::unlimited)
-      fail(name, "has a highest speed; links have none, joints have JointAxis::max_speed");
-    if (body.continuous) fail(name, "is continuous; links are not");
-  }
   const Scene &scene_;
   const std::string &where_;
-  const Articulation *articulation_ = nullptr;
   std::vector<bool> joints_, linked_;
 };
 
@@ -270,7 +281,6 @@ void check_joint_of_tree(const Joint &joint, size_t index, const std::string &wh
   if (joint.break_force < JointAxis::unlimited || joint.break_torque < JointAxis::unlimited)
     check.fail("can break; joints of a tree do not");
   check_joint_at_link(joint, index, where);
-  if (joint.type == JointType::ball) check_ball_of_tree(joint, index, where);
 }
 
 void check_articulations(const Scene &scene, const std::string &where)
@@ -280,6 +290,11 @@ void check_articulations(const Scene &scene, const std::string &where)
   for (const Articulation &articulation : scene.articulations)
     checks.check(articulation, ordered_links_of(scene, articulation, where));
   checks.check_others();
+}
+
+void check_articulation(const Scene &scene, const Articulation &articulation, const std::string &where)
+{
+  check_links(scene, articulation, ordered_links_of(scene, articulation, where), where);
 }
 
 void check_articulations(const Settings &settings, const Scene &scene)

@@ -54,6 +54,9 @@ void stage_link_axes(StagedUploads &uploads, const Scene &scene, std::span<const
 /* Throws InputError that names the first articulation, joint or body that cannot be simulated. */
 void check_articulations(const Scene &scene, const std::string &where);
 
+/* The same of one articulation, as if it were the only one. */
+void check_articulation(const Scene &scene, const Articulation &articulation, const std::string &where);
+
 /* Throws InputError if the settings ask for what has no articulations. */
 void check_articulations(const Settings &settings, const Scene &scene);
 

@@ -11,6 +11,7 @@
 #include "host/scene/checker.h"
 #include "host/scene/joint_rows.h"
 #include "host/scene/specialise.h"
+#include "shared/joints/joint_codes.h"
 
 namespace tandem {
 namespace {
@@ -64,9 +65,9 @@ private:
   {
     const Joint &joint = scene_.joints[index];
     if (joint.type != JointType::fixed && joint.type != JointType::hinge && joint.type != JointType::slider &&
-        joint.type != JointType::ball)
-      fail_joint(index, "has another type than fixed, hinge, slider or ball; leave it out, and it closes a loop");
-    if (joint.type == JointType::ball) check_ball_of_tree(joint, index, where_);
+        !is_ball_of_tree(joint))
+      fail_joint(index, "has another type than fixed, hinge, slider, ball or cone_twist; leave it out, and it closes a "
+                        "loop");
   }
 
   bool is_ground(uint32_t body) const { return body == no_body || scene_.bodies[body].type == BodyType::fixed; }
@@ -116,7 +117,7 @@ private:
     const Joint &joint = scene_.joints[index];
     OrderedLink l;
     l.link = {b_is_parent ? joint.body_a : joint.body_b, parent, index, 0, 0};
-    l.type = joint.type;
+    l.type = is_ball_of_tree(joint) ? JointType::ball : joint.type;
     l.position_a = joint.position_a, l.position_b = joint.position_b;
     l.orientation_a = joint.orientation_a, l.orientation_b = joint.orientation_b;
     if (b_is_parent) turn_round(l);
@@ -202,25 +203,36 @@ private:
 
 } // namespace
 
-JointAxis axis_of_tree(const Joint &joint)
+bool is_ball_of_tree(const Joint &joint)
 {
-  switch (joint.type) {
-  case JointType::hinge:
-  case JointType::ball: return joint.rotations[0];
-  case JointType::slider: return joint.directions[0];
-  default: return {};
-  }
+  const HeldAxes held = held_by(joint);
+  return !crosses(joint.type) && held.directions == JOINT_XYZ && held.rotations == 0;
 }
 
-void check_ball_of_tree(const Joint &joint, size_t index, const std::string &where)
+namespace {
+
+/* A spring and a damper alike about all axes are a part of the mass matrix. */
+bool is_driven_alike(const Joint &ball)
 {
-  const auto &r = joint.rotations;
+  const auto &r = ball.rotations;
   JointAxis drive;
   drive.stiffness = r[0].stiffness;
   drive.damping = r[0].damping;
-  if (r[0] != drive || r[1] != drive || r[2] != drive)
-    refuse(where, label("joint", index, joint.name),
-           "is a ball with more than one stiffness and one damping about all axes; leave it out of the tree");
+  return ball.type == JointType::ball && r[0] == drive && r[1] == drive && r[2] == drive;
+}
+
+} // namespace
+
+bool has_rows_besides_tree(const Joint &joint)
+{
+  return is_ball_of_tree(joint) && !axes_used_by(joint).empty() && !is_driven_alike(joint);
+}
+
+JointAxis axis_of_tree(const Joint &joint)
+{
+  if (joint.type == JointType::hinge) return joint.rotations[0];
+  if (joint.type == JointType::slider) return joint.directions[0];
+  return is_ball_of_tree(joint) && is_driven_alike(joint) ? joint.rotations[0] : JointAxis{};
 }
 
 std::vector<OrderedLink> ordered_links_of(const Scene &scene, const Articulation &articulation,

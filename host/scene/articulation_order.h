@@ -11,7 +11,7 @@ namespace tandem {
 /* A link with its joint as seen from its parent: frame a is on the parent, or in the world, and frame b on the link. */
 struct OrderedLink {
   ArticulationLink link;
-  JointType type = JointType::ball; /* of a free root meaningless */
+  JointType type = JointType::ball; /* fixed, hinge, slider or ball; of a free root meaningless */
   bool is_free = false;
   Point position_a{0, 0, 0}, position_b{0, 0, 0};
   Quat orientation_a{0, 0, 0, 1}, orientation_b{0, 0, 0, 1};
@@ -19,11 +19,15 @@ struct OrderedLink {
   float armature = 0;
 };
 
+/* Whether the joint is a ball for a tree: one that holds all directions and no rotation. */
+bool is_ball_of_tree(const Joint &joint);
+
+/* Whether the tree holds the ball alone, and the rows of its axes are those of a joint between its links
+ * (shared/articulations/joint.h): of all balls but those with one stiffness and one damping about all axes. */
+bool has_rows_besides_tree(const Joint &joint);
+
 /* The axis of a joint that a tree drives, limits and brakes. */
 JointAxis axis_of_tree(const Joint &joint);
-
-/* Throws InputError if a ball has more than a tree can have. */
-void check_ball_of_tree(const Joint &joint, size_t index, const std::string &where);
 
 /* Links of equal distance from the root stand in the order of Articulation::joints. */
 std::vector<OrderedLink> ordered_links_of(const Scene &scene, const Articulation &articulation,

@@ -42,6 +42,10 @@ struct Checker {
   {
     if (!is_finite_vector(v)) fail(fmt::format("{} is {}; three finite numbers are needed", field, vector_text(v)));
   }
+  void finite(const char *field, float x) const
+  {
+    if (!std::isfinite(x)) fail(fmt::format("{} is {}; a finite number is needed", field, x));
+  }
   void at_least_zero(const char *field, float x) const
   {
     if (!(x >= 0) || !std::isfinite(x))

@@ -10,6 +10,7 @@
 
 #include <tandem/round_to_float.h>
 
+#include "host/scene/articulation_buffers.h"
 #include "host/scene/body_buffers.h"
 #include "host/scene/joint_rows.h"
 #include "host/scene/joint_sharing.h"
@@ -29,12 +30,6 @@ uint32_t modes_of(const Joint &joint)
 bool is_to_world(const Joint &joint)
 {
   return !is_vacant(joint) && (joint.body_a == no_body || joint.body_b == no_body);
-}
-
-bool bounces(const Joint &joint)
-{
-  const std::vector<UsedAxis> used = axes_used_by(joint);
-  return std::any_of(used.begin(), used.end(), [](const UsedAxis &one) { return one.axis.restitution > 0; });
 }
 
 bool can_break(const Joint &joint) { return std::isfinite(joint.break_force) || std::isfinite(joint.break_torque); }
@@ -63,6 +58,20 @@ float finite(float x) { return std::clamp(x, -1e30f, 1e30f); }
 
 /* Kernels divide by stiffness and damping; what comes of the least and the largest of floats is none. */
 float moderate(float x) { return x > 0 ? std::clamp(x, 1e-30f, 1e30f) : 0; }
+
+/* As kernels have it: negative damping is a motor's. */
+struct Damper {
+  float damping, target_velocity;
+};
+
+/* A force F is a damper c towards the speed F / c. One that the axis has not is so weak that it brakes nothing. */
+Damper damper_of(const JointAxis &axis)
+{
+  constexpr float fastest = 1e12f;
+  if (axis.motor) return {float{DAMPING_OF_MOTOR}, axis.target_velocity};
+  const float damping = moderate(std::max(axis.damping, std::abs(axis.force) / fastest));
+  return {damping, damping > 0 ? axis.target_velocity + axis.force / damping : axis.target_velocity};
+}
 
 /* The planes of the axes of joints, by their places. */
 class AxisRows {
@@ -93,9 +102,10 @@ struct JointRows {
   std::vector<uint32_t> modes;
   std::vector<float4> arm_a, arm_b, frame_a, frame_b, world_frame, limits;
 
-  void add(const Joint &joint, const JointSharing &sharing)
+  /* in_tree: what the joint holds is held by its tree. */
+  void add(const Joint &joint, const JointSharing &sharing, bool in_tree)
   {
-    modes.push_back(modes_of(joint));
+    modes.push_back(in_tree ? 0 : modes_of(joint));
     arm_a.push_back(arm_of(joint.position_a, joint.body_a, sharing.of(joint, joint.body_a)));
     arm_b.push_back(arm_of(joint.position_b, joint.body_b, sharing.of(joint, joint.body_b)));
     frame_a.push_back(float4_of(joint.orientation_a));
@@ -166,12 +176,18 @@ private:
 
 } // namespace
 
+bool bounces(const Joint &joint)
+{
+  const std::vector<UsedAxis> used = axes_used_by(joint);
+  return std::any_of(used.begin(), used.end(), [](const UsedAxis &one) { return one.axis.restitution > 0; });
+}
+
 std::array<float4, 3> row_of_axis(const JointAxis &axis)
 {
+  const Damper damper = damper_of(axis);
   return {
-      float4{finite(axis.lower), finite(axis.upper), axis.target_position, axis.target_velocity},
-      float4{moderate(axis.stiffness), axis.motor ? float{DAMPING_OF_MOTOR} : moderate(axis.damping),
-             finite(axis.max_force), axis.friction},
+      float4{finite(axis.lower), finite(axis.upper), axis.target_position, damper.target_velocity},
+      float4{moderate(axis.stiffness), damper.damping, finite(axis.max_force), axis.friction},
       float4{moderate(axis.limit_stiffness), moderate(axis.limit_damping), finite(axis.max_speed), axis.restitution}};
 }
 
@@ -245,7 +261,7 @@ uint32_t joined_pair_entries(const Scene &scene, const JointGraph &graph, std::s
 {
   const auto parts = [&](uint32_t joint) { return parts_bodies(scene.joints[joint]); };
   const auto pairs = static_cast<size_t>(std::count_if(awake.begin(), awake.end(), parts) +
-                                         std::count_if(graph.in_trees.begin(), graph.in_trees.end(), parts));
+                                         std::count_if(graph.without_rows.begin(), graph.without_rows.end(), parts));
   return static_cast<uint32_t>(std::min<size_t>(std::bit_ceil(2 * std::max<size_t>(pairs, 1)), graph.joined_pairs));
 }
 
@@ -255,7 +271,8 @@ void stage_joints(StagedUploads &uploads, const Scene &scene, const JointGraph &
   if (scene.joints.empty()) return;
   JointRows rows;
   const JointSharing sharing(scene);
-  for (const uint32_t joint : joints) rows.add(scene.joints[joint], sharing);
+  const std::vector<bool> in_trees = articulated_joints(scene);
+  for (const uint32_t joint : joints) rows.add(scene.joints[joint], sharing, in_trees[joint]);
   rows.stage(uploads);
   stage_axes(uploads, scene, joints, graph.axes);
   stage_colors(uploads, graph, index_of_body, room);
@@ -277,7 +294,7 @@ void stage_bodies_of_joints(StagedUploads &uploads, const Scene &scene, const Jo
   if (entries == 0) return;
   JoinedPairTable table(scene, index_of_body, entries);
   table.add(awake);
-  table.add(graph.in_trees);
+  table.add(graph.without_rows);
   uploads.add_elements(Buffer::body_filter, std::move(table).words(), first_pair);
 }
 

@@ -19,6 +19,9 @@ namespace tandem {
 /* Whether joints push the body: not the world (no_body), nor what is fixed or kinematic. */
 bool can_be_pushed(const Scene &scene, uint32_t body);
 
+/* Whether it has a limit with restitution. */
+bool bounces(const Joint &joint);
+
 /* The numbers of an axis as kernels read them: shared/joints/axes.h. */
 std::array<float4, 3> row_of_axis(const JointAxis &axis);
 

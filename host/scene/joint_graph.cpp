@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "host/scene/articulation_buffers.h"
+#include "host/scene/articulation_order.h"
 #include "host/scene/joint_buffers.h"
 #include "shared/counts.h"
 
@@ -16,7 +17,7 @@ namespace {
 /* The colours of joints that hold links come behind all others. */
 constexpr uint32_t first_of_links = COLOR_OVERFLOW + 1;
 
-/* The colour of joints that are not enabled, and of those of articulations. */
+/* The colour of joints that are not enabled, of those of articulations, and of those of links that hold nothing. */
 constexpr uint32_t behind_all = 2 * first_of_links;
 
 /* The colours in use at the bodies, as one word of 64 bits each; of links, at the node of their tree. */
@@ -83,11 +84,16 @@ public:
   uint32_t take(size_t number)
   {
     const Joint &joint = scene_.joints[number];
-    if (!joint.enabled || articulated_[number]) return behind_all;
+    if (!joint.enabled || is_without_rows(number)) return behind_all;
     if (holds_link(links_, joint)) return first_of_links + at_trees_.take(joint);
     return at_bodies_.take(joint);
   }
-  bool is_in_tree(size_t number) const { return articulated_[number]; }
+  bool is_without_rows(size_t number) const
+  {
+    const Joint &joint = scene_.joints[number];
+    if (articulated_[number]) return !has_rows_besides_tree(joint);
+    return joint.enabled && holds_link(links_, joint) && holds_nothing(joint);
+  }
   std::vector<uint32_t> words() const { return at_bodies_.words(); }
 
 private:
@@ -107,7 +113,7 @@ JointGraph joint_graph_of(const Scene &scene, uint32_t worlds)
   graph.starts.assign(behind_all + 1, 0);
   for (size_t k = 0; k < scene.joints.size(); ++k) {
     const uint32_t color = colors.emplace_back(given.take(k));
-    if (given.is_in_tree(k)) graph.in_trees.push_back(static_cast<uint32_t>(k));
+    if (given.is_without_rows(k)) graph.without_rows.push_back(static_cast<uint32_t>(k));
     if (color == behind_all) continue;
     ++graph.starts[color + 1];
     if (color < first_of_links) graph.colors = std::max(graph.colors, color + 1);

@@ -8,7 +8,8 @@
  *   colour 0 | hinge hinge slider | colour 1 | ball hinge | ... | overflow | of links: colour 0 | ... | overflow
  *
  * Joints that hold links of articulations from outside of their trees are solved besides contacts, not among them
- * (shared/articulations/joint.h), so they have colours of their own, where a tree is one node.
+ * (shared/articulations/joint.h), so they have colours of their own, where a tree is one node. One that holds nothing,
+ * and only keeps two bodies from colliding, needs none.
  *
  * Joints that are not enabled have no colour and stand behind all others, where no kernel of a step looks.
  *
@@ -26,7 +27,8 @@
 namespace tandem {
 
 struct JointGraph {
-  std::vector<uint32_t> in_trees;    /* joints of articulations, which have no colour */
+  std::vector<uint32_t> without_rows; /* joints of articulations but for balls with rows besides their tree, and those
+                                         of links that hold nothing; they have no colour */
   std::vector<uint32_t> order;       /* joints of the scene by colour; of one colour by type, then by number; those that
                                         are not enabled last */
   std::vector<uint32_t> starts;      /* in that order: the first of each colour and of the overflow joints; the same of

@@ -38,6 +38,8 @@ struct UsedAxis {
   JointAxis axis;
 };
 TANDEM_API std::vector<UsedAxis> axes_used_by(const Joint &joint);
+/* Whether it only keeps its bodies from colliding. */
+TANDEM_API bool holds_nothing(const Joint &joint);
 /* The kind of directions[axis], or of rotations[axis - 3]; JOINT_AXIS_NONE: it is not free. */
 uint32_t kind_of_axis(const Joint &joint, size_t axis);
 

@@ -90,6 +90,8 @@ std::vector<UsedAxis> axes_used_by(const Joint &joint)
   return used;
 }
 
+bool holds_nothing(const Joint &joint) { return held_by(joint) == HeldAxes{0, 0} && axes_used_by(joint).empty(); }
+
 namespace {
 
 std::string names_of_types()
@@ -127,9 +129,8 @@ void check_axis(const std::string &field, const JointAxis &axis, const Checker &
   if (std::isnan(axis.lower) || std::isnan(axis.upper) || axis.lower > axis.upper)
     check.fail(fmt::format("{} is from {} to {}; a lower limit that is at most the upper one is needed", field,
                            axis.lower, axis.upper));
-  for (const auto &[of, x] :
-       {std::pair("target_position", axis.target_position), std::pair("target_velocity", axis.target_velocity)})
-    if (!std::isfinite(x)) check.fail(fmt::format("{} is {}; a finite number is needed", name(of), x));
+  check.finite(name("target_position").c_str(), axis.target_position);
+  check.finite(name("target_velocity").c_str(), axis.target_velocity);
   check.at_least_zero(name("stiffness").c_str(), axis.stiffness);
   check.at_least_zero(name("friction").c_str(), axis.friction);
   check.at_least_zero(name("limit_stiffness").c_str(), axis.limit_stiffness);
@@ -144,6 +145,9 @@ void check_axis(const std::string &field, const JointAxis &axis, const Checker &
         fmt::format("{} is a motor and has stiffness {} and damping {}; a motor has neither, because it holds its "
                     "velocity",
                     field, axis.stiffness, axis.damping));
+  check.finite(name("force").c_str(), axis.force);
+  if (axis.motor && axis.force != 0)
+    check.fail(fmt::format("{} is a motor and has a force of {}; a motor has max_force alone", field, axis.force));
   if (!(axis.max_force >= 0))
     check.fail(fmt::format("{} is {}; at least 0 is needed, or infinity", name("max_force"), axis.max_force));
   check.speed(name("max_speed").c_str(), axis.max_speed);

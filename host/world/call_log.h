@@ -27,7 +27,7 @@
 namespace tandem {
 
 constexpr std::array<char, 8> recording_magic{'T', 'A', 'N', 'D', 'E', 'M', 'R', '\n'};
-constexpr uint64_t recording_format = 3;
+constexpr uint64_t recording_format = 4;
 
 enum class RecordedPart : uint8_t { header, snapshot, calls, end };
 

@@ -18,6 +18,7 @@
 #include "host/pipeline/layout.h"
 #include "host/pipeline/scene_counts.h"
 #include "host/scene/articulation_buffers.h"
+#include "host/scene/articulation_order.h"
 #include "host/scene/built.h"
 #include "host/scene/joint_buffers.h"
 #include "host/scene/joint_rows.h"
@@ -385,6 +386,7 @@ void World::Implementation::write_joint_axes(std::span<const uint32_t> changed, 
   bool fits = true;
   for (size_t k = 0; k < changed.size(); ++k)
     fits = fits && kinds_used_by(scene.joints[changed[k]]) == kinds_used_by(joints[k]) &&
+           has_rows_besides_tree(scene.joints[changed[k]]) == has_rows_besides_tree(joints[k]) &&
            (features_of(joints[k]) & ~scene_features) == 0;
   if (!fits) {
     std::vector<Joint> all = scene.joints;

@@ -53,9 +53,9 @@ template <Is<Body> T, class Visit> auto visit_fields(T &record, const Visit &vis
 template <Is<JointAxis> T, class Visit> auto visit_fields(T &record, const Visit &visit)
 {
   auto &[lower, upper, limit_stiffness, limit_damping, restitution, target_position, target_velocity, stiffness,
-         damping, motor, max_force, friction, max_speed] = record;
+         damping, motor, force, max_force, friction, max_speed] = record;
   return visit(lower, upper, limit_stiffness, limit_damping, restitution, target_position, target_velocity, stiffness,
-               damping, motor, max_force, friction, max_speed);
+               damping, motor, force, max_force, friction, max_speed);
 }
 
 template <Is<Joint> T, class Visit> auto visit_fields(T &record, const Visit &visit)

@@ -44,9 +44,10 @@ SHARED uint_lanes body_of_link(read_links links, const articulation *t, uint_lan
 }
 
 /* Whether a contact has pushed a link in this substep: beside the force on a free root. */
-SHARED void note_pushed(const articulation *t, real pushed)
+SHARED void note_pushed_if(mask wanted, const articulation *t, real pushed)
 {
-  store_root(has_links(t), t, (uint)ROOT_LINEAR_FORCE, extend(xyz(load_root(t, (uint)ROOT_LINEAR_FORCE)), pushed));
+  store_root(wanted & has_links(t), t, (uint)ROOT_LINEAR_FORCE,
+             extend(xyz(load_root(t, (uint)ROOT_LINEAR_FORCE)), pushed));
 }
 SHARED mask is_pushed(const articulation *t) { return load_root(t, (uint)ROOT_LINEAR_FORCE).w != R(0.0); }
 

@@ -25,12 +25,15 @@ typedef struct {
 
 SHARED link_contact load_link_contact(GLOBAL const Parameters *parameters, read_contacts contacts, read_patches patches,
                                       read_turning_bodies bodies, read_links links, write_link_states states,
-                                      GLOBAL const float4 *solver_velocity, uint i)
+                                      GLOBAL const float4 *solver_velocity, item_index i)
 {
   link_contact c;
   c.shape = load_contact(parameters, contacts, solver_velocity, bodies.inertia, i);
-  pushed_side a = pushed_side_of(links, states, c.shape.a, c.shape.velocity_a, c.shape.inertia_a, c.shape.locks_a);
-  pushed_side b = pushed_side_of(links, states, c.shape.b, c.shape.velocity_b, c.shape.inertia_b, c.shape.locks_b);
+  mask links_a = is_link(links.of_body, c.shape.a), links_b = is_link(links.of_body, c.shape.b);
+  pushed_side a =
+      pushed_side_of(links_a, links, states, c.shape.a, c.shape.velocity_a, c.shape.inertia_a, c.shape.locks_a);
+  pushed_side b =
+      pushed_side_of(links_b, links, states, c.shape.b, c.shape.velocity_b, c.shape.inertia_b, c.shape.locks_b);
   c.ends = pushed_pair_of(a, b);
   c.moved = load_delta_pose(bodies.delta, c.shape);
   c.shift = shift_of_contact(c.shape, c.moved.translation);
@@ -44,7 +47,7 @@ SHARED link_contact load_link_contact(GLOBAL const Parameters *parameters, read_
 SHARED real response_of_rows(const link_contact *c, row_of_pair first, row_of_pair second)
 {
   real apart = response_apart(&c->ends, first, second);
-  return c->ends.is_within ? R(2.0) * apart : apart;
+  return choose(c->ends.is_within, R(2.0) * apart, apart);
 }
 
 /* --- friction ------------------------------------------------------------------------------------------------- */
@@ -92,14 +95,14 @@ typedef struct {
 } link_normals;
 
 SHARED link_normals load_link_normals(const link_contact *c, read_patches patches, point_planes planes, vec4 impulses,
-                                      uint i)
+                                      item_index i)
 {
   link_normals s;
   for (uint k = 0; k < 4u; ++k) {
     vec3 arm_a = load_arm_of_a(patches.points, planes, k, i), arm_b = subtract(arm_a, xyz(c->offset));
     s.row[k] = row_along(add(arm_a, c->shift.a), add(arm_b, c->shift.b), c->shape.normal);
     mask used = load_point_mass(patches.points, planes, k, i) > R(0.0);
-    s.mass[k] = used ? inverse_or_zero(response_of_rows(c, s.row[k], s.row[k])) : (real)R(0.0);
+    s.mass[k] = choose(used, inverse_or_zero(response_of_rows(c, s.row[k], s.row[k])), (real)R(0.0));
     s.impulse[k] = component(impulses, k);
     s.separation[k] = load_separation(patches.points, planes, k, i) + dot3(c->shape.normal, c->moved.translation) +
                       (dot3(s.row[k].b.moment, c->moved.rotation_b) - dot3(s.row[k].a.moment, c->moved.rotation_a));
@@ -168,22 +171,48 @@ SHARED row_of_pair row_of_impulses(const link_contact *c, const link_normals *s,
   return r;
 }
 
+SHARED vec4 solve_link_friction_if(mask rough, link_contact *c, vec4 friction, vec4 normal)
+{
+  link_contact slid = *c;
+  vec4 solved = solve_link_friction(&slid, friction, (normal.x + normal.y) + (normal.z + normal.w));
+  c->ends.a = choose_side(rough, slid.ends.a, c->ends.a);
+  c->ends.b = choose_side(rough, slid.ends.b, c->ends.b);
+  mask within = c->ends.is_within;
+  c->ends.is_within = within & rough;
+  push_each_other(&c->ends);
+  c->ends.is_within = within;
+  return choose4(rough, solved, friction);
+}
+
+/* Contacts of an impact have more rounds. */
+SHARED void solve_rounds_of_normals(GLOBAL const Parameters *parameters, link_contact *c, link_normals *s, real slop,
+                                    uint biased)
+{
+  solve_link_normals(parameters, c, s, slop, biased);
+  mask at_impact = c->shape.follows == R(0.0);
+  if (!any_of(at_impact)) return;
+  pushed_side a = c->ends.a, b = c->ends.b;
+  vec4 once = impulses_of_normals(s);
+  for (uint round = 0; round < IMPACT_ROUNDS; ++round) solve_link_normals(parameters, c, s, slop, biased);
+  c->ends.a = choose_side(at_impact, c->ends.a, a);
+  c->ends.b = choose_side(at_impact, c->ends.b, b);
+  vec4 often = choose4(at_impact, impulses_of_normals(s), once);
+  for (uint k = 0; k < 4u; ++k) s->impulse[k] = component(often, k);
+}
+
 /* Rows of impulses are read and written by the kernels below as those of solve/contact.h do. */
 SHARED void solve_link_contact(GLOBAL const Parameters *parameters, link_contact *c, read_patches patches,
                                point_planes planes, write_contact_impulses impulses, GLOBAL float4 *warm_start_impulse,
-                               uint pass, uint i)
+                               uint pass, item_index i)
 {
   vec4 normal = load_float4(impulses.normal, i), friction = load_friction(parameters, impulses.friction, i);
-  if (HAS_FEATURE(parameters, FRICTION) && c->shape.friction > R(0.0)) {
-    friction = solve_link_friction(c, friction, (normal.x + normal.y) + (normal.z + normal.w));
+  mask rough = c->shape.friction > R(0.0);
+  if (HAS_FEATURE(parameters, FRICTION) && any_of(rough)) {
+    friction = solve_link_friction_if(rough, c, friction, normal);
     store_float4(impulses.friction, i, friction);
-    if (c->ends.is_within) push_both_into_tree(&c->ends);
   }
   link_normals s = load_link_normals(c, patches, planes, normal, i);
-  real slop = load_real(patches.slop, i);
-  uint rounds = c->shape.follows == R(0.0) ? IMPACT_ROUNDS + 1u : 1u;
-  for (uint round = 0; round < rounds; ++round)
-    solve_link_normals(parameters, c, &s, slop, pass == (uint)PASS_BIASED ? 1u : 0u);
+  solve_rounds_of_normals(parameters, c, &s, load_real(patches.slop, i), pass == (uint)PASS_BIASED ? 1u : 0u);
   normal = impulses_of_normals(&s);
   store_float4(impulses.normal, i, normal);
   keep_highest_impulses(parameters, impulses.restitution, planes.stride, normal, i);
@@ -192,30 +221,34 @@ SHARED void solve_link_contact(GLOBAL const Parameters *parameters, link_contact
 }
 
 SHARED void warm_start_link_contact(GLOBAL const Parameters *parameters, link_contact *c, read_patches patches,
-                                    point_planes planes, write_contact_impulses impulses, uint i)
+                                    point_planes planes, write_contact_impulses impulses, item_index i)
 {
   link_normals s = load_link_normals(c, patches, planes, load_float4(impulses.normal, i), i);
   push_row(&c->ends, row_of_impulses(c, &s, load_friction(parameters, impulses.friction, i)), R(1.0));
 }
 
+/* Contacts of which no point bounces stay as they are. */
 SHARED void bounce_link_contact(link_contact *c, read_patches patches, point_planes planes,
-                                write_contact_impulses impulses, uint i)
+                                write_contact_impulses impulses, item_index i)
 {
   vec4 target_velocity = load_float4(impulses.restitution, i),
        highest = load_float4(impulses.restitution, planes.stride + i);
-  if (target_velocity.x < R(0.0) && target_velocity.y < R(0.0) && target_velocity.z < R(0.0) &&
-      target_velocity.w < R(0.0))
-    return;
+  mask bounces = (target_velocity.x >= R(0.0)) | (target_velocity.y >= R(0.0)) | (target_velocity.z >= R(0.0)) |
+                 (target_velocity.w >= R(0.0));
+  if (!any_of(bounces)) return;
+  pushed_side a = c->ends.a, b = c->ends.b;
   link_normals s = load_link_normals(c, patches, planes, load_float4(impulses.normal, i), i);
   for (uint round = 0; round < RESTITUTION_ROUNDS; ++round) bounce_link_normals(c, &s, target_velocity, highest);
-  store_float4(impulses.normal, i, impulses_of_normals(&s));
+  c->ends.a = choose_side(bounces, c->ends.a, a);
+  c->ends.b = choose_side(bounces, c->ends.b, b);
+  store_float4_if(bounces, impulses.normal, i, impulses_of_normals(&s));
 }
 
 SHARED void solve_link_contacts_item(GLOBAL const Parameters *parameters, read_contacts contacts, read_patches patches,
                                      read_turning_bodies bodies, read_links links, GLOBAL const uint *counts,
                                      write_link_states states, write_contact_impulses contact_impulses,
                                      GLOBAL float4 *solver_velocity, GLOBAL float4 *warm_start_impulse, uint pass,
-                                     uint i)
+                                     item_index i)
 {
   point_planes planes = planes_of(counts);
   link_contact c = load_link_contact(parameters, contacts, patches, bodies, links, states, solver_velocity, i);
@@ -225,6 +258,7 @@ SHARED void solve_link_contacts_item(GLOBAL const Parameters *parameters, read_c
   store_pair(&c.ends, solver_velocity);
 }
 
+#ifndef TANDEM_LANES /* ITEM kernels take one item at a time */
 /* The contacts of links that share colours with others, one after another. */
 SHARED void solve_link_contacts_in_order_item(GLOBAL const Parameters *parameters, read_contacts contacts,
                                               read_patches patches, read_turning_bodies bodies, read_links links,
@@ -237,5 +271,6 @@ SHARED void solve_link_contacts_in_order_item(GLOBAL const Parameters *parameter
     solve_link_contacts_item(parameters, contacts, patches, bodies, links, counts, states, contact_impulses,
                              solver_velocity, warm_start_impulse, pass, k);
 }
+#endif
 
 #endif

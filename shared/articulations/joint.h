@@ -28,28 +28,32 @@ typedef struct {
   pushed_pair ends;
   joint shape;
   joint_frames frames;
-  uint ancestor;                  /* of both links, if they are of one tree */
+  uint_lanes ancestor;            /* of both links, if they are of one tree */
   symmetric6 inverse_of_ancestor; /* inertia */
 } link_joint;
 
 SHARED pushed_side side_of_joint(read_links links, write_link_states states, joint_side s)
 {
-  if (s.is_world) return single_body_side(links, states, s.body, s.velocity, s.inertia, s.locks);
-  return pushed_side_of(links, states, s.body, s.velocity, s.inertia, s.locks);
+  mask in_table = is_link(links.of_body, s.body) & !s.is_world;
+  return pushed_side_of(in_table, links, states, s.body, s.velocity, s.inertia, s.locks);
 }
 
-SHARED uint common_ancestor(const articulation *t, uint k, uint other)
+SHARED uint_lanes common_ancestor(mask wanted, const articulation *t, uint_lanes k, uint_lanes other)
 {
-  while (k != other) {
-    if (k > other) k = tree_link_of(t, k).parent;
-    else other = tree_link_of(t, other).parent;
+  k = choose(wanted, k, (uint_lanes)0u);
+  other = choose(wanted, other, (uint_lanes)0u);
+  while (any_of(k != other)) {
+    mask k_first = k > other, other_first = other > k;
+    uint_lanes above_k = tree_link_of(t, k).parent, above_other = tree_link_of(t, other).parent;
+    k = choose(k_first, above_k, k);
+    other = choose(other_first, above_other, other);
   }
   return k;
 }
 
 SHARED link_joint load_link_joint(GLOBAL const Parameters *parameters, read_joints joints, read_turning_bodies bodies,
                                   read_links links, write_link_states states, GLOBAL const float4 *solver_velocity,
-                                  uint i)
+                                  item_index i)
 {
   link_joint j;
   j.shape = load_joint(parameters, joints, bodies, solver_velocity, i);
@@ -57,22 +61,23 @@ SHARED link_joint load_link_joint(GLOBAL const Parameters *parameters, read_join
   pushed_side a = side_of_joint(links, states, j.shape.a);
   pushed_side b = side_of_joint(links, states, j.shape.b);
   j.ends = pushed_pair_of(a, b);
-  j.ancestor = 0u;
+  j.ancestor = (uint_lanes)0u;
   j.inverse_of_ancestor = zero_symmetric6();
-  if (!j.ends.is_within) return j;
-  j.ancestor = common_ancestor(&j.ends.a.tree, j.ends.a.k, j.ends.b.k);
+  if (!any_of(j.ends.is_within)) return j;
+  j.ancestor = common_ancestor(j.ends.is_within, &j.ends.a.tree, j.ends.a.k, j.ends.b.k);
   j.inverse_of_ancestor = load_symmetric6(&j.ends.a.tree, j.ancestor);
   return j;
 }
 
 /* --- responses ------------------------------------------------------------------------------------------------ */
 /* What of an impulse on a link arrives at one of its ancestors. */
-SHARED spatial_force force_at_ancestor(const articulation *t, uint k, uint ancestor, spatial_force f)
+SHARED spatial_force force_at_ancestor(mask wanted, const articulation *t, uint_lanes k, uint_lanes ancestor,
+                                       spatial_force f)
 {
-  while (k != ancestor) {
+  for (mask below = wanted & (k != ancestor); any_of(below); below = below & (k != ancestor)) {
     tree_link l = tree_link_of(t, k);
-    f = share_of_joint(t, l, load_placed_joint(t, l), f, zero3()).rest;
-    k = l.parent;
+    f = choose_force(below, share_of_joint(t, l, load_placed_joint(t, l), f, zero3()).rest, f);
+    k = choose(below, l.parent, k);
   }
   return f;
 }
@@ -85,9 +90,10 @@ typedef struct {
 SHARED joint_row row_of_joint(const link_joint *j, row_of_pair own)
 {
   joint_row r = {own, own};
-  if (!j->ends.is_within) return r;
-  r.at_ancestor.a = force_at_ancestor(&j->ends.a.tree, j->ends.a.k, j->ancestor, own.a);
-  r.at_ancestor.b = force_at_ancestor(&j->ends.b.tree, j->ends.b.k, j->ancestor, own.b);
+  mask within = j->ends.is_within;
+  if (!any_of(within)) return r;
+  r.at_ancestor.a = force_at_ancestor(within, &j->ends.a.tree, j->ends.a.k, j->ancestor, own.a);
+  r.at_ancestor.b = force_at_ancestor(within, &j->ends.b.tree, j->ends.b.k, j->ancestor, own.b);
   return r;
 }
 
@@ -95,9 +101,10 @@ SHARED joint_row row_of_joint(const link_joint *j, row_of_pair own)
 SHARED real response_of_joint(const link_joint *j, const joint_row *first, const joint_row *second)
 {
   real apart = response_apart(&j->ends, first->own, second->own);
-  if (!j->ends.is_within) return apart;
-  return apart - (power_of(second->at_ancestor.b, inverse_times(&j->inverse_of_ancestor, first->at_ancestor.a)) +
-                  power_of(second->at_ancestor.a, inverse_times(&j->inverse_of_ancestor, first->at_ancestor.b)));
+  if (!any_of(j->ends.is_within)) return apart;
+  real through = power_of(second->at_ancestor.b, inverse_times(&j->inverse_of_ancestor, first->at_ancestor.a)) +
+                 power_of(second->at_ancestor.a, inverse_times(&j->inverse_of_ancestor, first->at_ancestor.b));
+  return choose(j->ends.is_within, apart - through, apart);
 }
 SHARED real response_alone(const link_joint *j, row_of_pair r)
 {
@@ -108,10 +115,15 @@ SHARED real response_along_row(const link_joint *j, const joint_row *r)
   return maximum(response_of_joint(j, r, r), R(0.0)) + LINK_COMPLIANCE * response_alone(j, r->own);
 }
 
-SHARED void push_ends(link_joint *j, row_of_pair row, real impulse)
+SHARED void push_ends_if(mask wanted, link_joint *j, row_of_pair row, real impulse)
 {
+  pushed_pair before = j->ends;
   push_row(&j->ends, row, impulse);
-  if (j->ends.is_within) push_both_into_tree(&j->ends);
+  j->ends.a = choose_side(wanted, j->ends.a, before.a);
+  j->ends.b = choose_side(wanted, j->ends.b, before.b);
+  j->ends.is_within = before.is_within & wanted;
+  push_each_other(&j->ends);
+  j->ends.is_within = before.is_within;
 }
 
 /* --- limits and drives ---------------------------------------------------------------------------------------- */
@@ -132,17 +144,18 @@ SHARED axis_row row_of_link_axis(const link_joint *j, const joint_coordinate *at
 }
 
 SHARED void solve_link_axes(GLOBAL const Parameters *parameters, link_joint *j, read_joint_axes axes,
-                            GLOBAL float4 *impulse, uint pass, uint i)
+                            GLOBAL float4 *impulse, uint pass, item_index i)
 {
   for (uint k = 0; k < parameters->joint_axes; ++k) {
     joint_axis axis = load_axis(parameters, axes, k, i);
-    if (axis.kind == (uint)JOINT_AXIS_NONE) continue;
+    mask wanted = axis.kind != (uint_lanes)(uint)JOINT_AXIS_NONE;
+    if (!any_of(wanted)) continue;
     vec4 kept = load_float4(impulse, joint_plane(parameters, k) + i);
     joint_coordinate at = coordinate_of(j->shape, j->frames, axis.kind);
     row_of_pair row;
     axis_row r = row_of_link_axis(j, &at, &row);
-    push_ends(j, row, solve_rows_of_axis(parameters, &r, &axis, &kept, pass));
-    store_float4(impulse, joint_plane(parameters, k) + i, kept);
+    push_ends_if(wanted, j, row, solve_rows_of_axis(parameters, &r, &axis, &kept, pass));
+    store_float4_if(wanted, impulse, joint_plane(parameters, k) + i, kept);
   }
 }
 
@@ -190,8 +203,8 @@ SHARED symmetric3 response_while_closing(const link_joint *j, const row_block *b
 }
 
 /* As solve_rows of joints/solve.h. */
-SHARED vec3 solve_link_rows(GLOBAL const Parameters *parameters, const link_joint *j, const row_block *b, uint locked,
-                            vec3 speed, vec3 open, vec3 old, uint pass)
+SHARED vec3 solve_link_rows(GLOBAL const Parameters *parameters, const link_joint *j, const row_block *b,
+                            uint_lanes locked, vec3 speed, vec3 open, vec3 old, uint pass)
 {
   symmetric3 k = response_of_block(j, b);
   vec3 rigid = solve_symmetric(rows_of_axes(locked, k), speed);
@@ -202,8 +215,8 @@ SHARED vec3 solve_link_rows(GLOBAL const Parameters *parameters, const link_join
 }
 
 /* locked: the rows that count, as JOINT_X and so on. open: how far the joint is open along them. */
-SHARED void solve_link_block(GLOBAL const Parameters *parameters, link_joint *j, row_block b, uint locked, vec3 open,
-                             vec3 *impulse, uint pass)
+SHARED void solve_link_block_if(mask wanted, GLOBAL const Parameters *parameters, link_joint *j, row_block b,
+                                uint_lanes locked, vec3 open, vec3 *impulse, uint pass)
 {
   vec3 speed = make_vec3(speed_of_row(&j->ends, b.row[0].own), speed_of_row(&j->ends, b.row[1].own),
                          speed_of_row(&j->ends, b.row[2].own));
@@ -212,8 +225,8 @@ SHARED void solve_link_block(GLOBAL const Parameters *parameters, link_joint *j,
   vec3 change = subtract(total, *impulse);
   row_of_pair sum = scaled_row(b.row[0].own, change.x);
   sum = add_rows(add_rows(sum, scaled_row(b.row[1].own, change.y)), scaled_row(b.row[2].own, change.z));
-  push_ends(j, sum, R(1.0));
-  *impulse = total;
+  push_ends_if(wanted, j, sum, R(1.0));
+  *impulse = choose3(wanted, total, *impulse);
 }
 
 SHARED mat3 axes_of_world(void)
@@ -224,21 +237,22 @@ SHARED mat3 axes_of_world(void)
 
 SHARED void solve_link_blocks(GLOBAL const Parameters *parameters, link_joint *j, joint_impulses *p, uint pass)
 {
-  uint turns = j->shape.modes >> (uint)JOINT_ANGULAR_SHIFT, moves = j->shape.modes & (uint)JOINT_XYZ;
-  if (HAS_FEATURE(parameters, JOINT_FRAMES) && turns != 0u)
-    solve_link_block(parameters, j, block_about(j, j->frames.axes), turns, turn_between(j->frames.relative, turns),
-                     &p->angular, pass);
-  if (moves == (uint)JOINT_XYZ)
-    solve_link_block(parameters, j, block_along(j, axes_of_world()), moves, j->shape.gap, &p->linear, pass);
-  else if (moves != 0u)
-    solve_link_block(parameters, j, block_along(j, j->frames.axes), moves, rotate_back(j->frames.axes, j->shape.gap),
-                     &p->linear, pass);
+  uint_lanes turns = j->shape.modes >> (uint)JOINT_ANGULAR_SHIFT, moves = j->shape.modes & (uint)JOINT_XYZ;
+  mask held = turns != 0u, whole = moves == (uint_lanes)(uint)JOINT_XYZ, some = (moves != 0u) & !whole;
+  if (HAS_FEATURE(parameters, JOINT_FRAMES) && any_of(held))
+    solve_link_block_if(held, parameters, j, block_about(j, j->frames.axes), turns,
+                        turn_between(j->frames.relative, turns), &p->angular, pass);
+  if (any_of(whole))
+    solve_link_block_if(whole, parameters, j, block_along(j, axes_of_world()), moves, j->shape.gap, &p->linear, pass);
+  if (any_of(some))
+    solve_link_block_if(some, parameters, j, block_along(j, j->frames.axes), moves,
+                        rotate_back(j->frames.axes, j->shape.gap), &p->linear, pass);
 }
 
 /* --- kernels -------------------------------------------------------------------------------------------------- */
 /* All impulses of the joint. */
 SHARED row_of_pair row_of_joint_impulses(GLOBAL const Parameters *parameters, const link_joint *j, read_joint_axes axes,
-                                         write_joint_impulses impulses, joint_impulses p, uint i)
+                                         write_joint_impulses impulses, joint_impulses p, item_index i)
 {
   joint_wrench w = joint_wrench_of(parameters, j->shape, j->frames, p);
   if (HAS_FEATURE(parameters, JOINT_AXES))
@@ -248,7 +262,7 @@ SHARED row_of_pair row_of_joint_impulses(GLOBAL const Parameters *parameters, co
 }
 
 SHARED void solve_link_joint(GLOBAL const Parameters *parameters, link_joint *j, read_joint_axes axes,
-                             write_joint_impulses impulses, GLOBAL float4 *warm_start_impulse, uint pass, uint i)
+                             write_joint_impulses impulses, GLOBAL float4 *warm_start_impulse, uint pass, item_index i)
 {
   joint_impulses p = load_joint_impulses(parameters, impulses.linear, impulses.angular, i);
   if (HAS_FEATURE(parameters, JOINT_AXES)) solve_link_axes(parameters, j, axes, impulses.axis, pass, i);
@@ -264,7 +278,7 @@ SHARED void solve_link_joint(GLOBAL const Parameters *parameters, link_joint *j,
 SHARED void solve_link_joints_item(GLOBAL const Parameters *parameters, read_joints joints, read_turning_bodies bodies,
                                    read_joint_axes axes, read_links links, write_link_states states,
                                    write_joint_impulses impulses, GLOBAL float4 *solver_velocity,
-                                   GLOBAL float4 *warm_start_impulse, uint pass, uint i)
+                                   GLOBAL float4 *warm_start_impulse, uint pass, item_index i)
 {
   link_joint j = load_link_joint(parameters, joints, bodies, links, states, solver_velocity, i);
   if (pass == (uint)PASS_WARM_STARTING) {
@@ -276,6 +290,7 @@ SHARED void solve_link_joints_item(GLOBAL const Parameters *parameters, read_joi
   store_pair(&j.ends, solver_velocity);
 }
 
+#ifndef TANDEM_LANES /* ITEM kernels take one item at a time */
 /* Those past the last colour, one after another. */
 SHARED void solve_link_joints_in_order_item(GLOBAL const Parameters *parameters, read_joints joints,
                                             read_turning_bodies bodies, read_joint_axes axes, read_links links,
@@ -288,5 +303,6 @@ SHARED void solve_link_joints_in_order_item(GLOBAL const Parameters *parameters,
     solve_link_joints_item(parameters, joints, bodies, axes, links, states, impulses, solver_velocity,
                            warm_start_impulse, pass, k);
 }
+#endif
 
 #endif

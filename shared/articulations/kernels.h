@@ -4,11 +4,11 @@
 #ifndef TANDEM_SHARED_ARTICULATIONS_KERNELS_H
 #define TANDEM_SHARED_ARTICULATIONS_KERNELS_H
 
+#include "shared/articulations/contact.h"
+#include "shared/articulations/joint.h"
 #include "shared/articulations/step.h"
 #ifndef TANDEM_LANES /* ITEM kernels take one item at a time */
 #include "shared/articulations/colors.h"
-#include "shared/articulations/contact.h"
-#include "shared/articulations/joint.h"
 #endif
 
 #endif

@@ -6,12 +6,12 @@
 
 typedef struct {
   pushed_side a, b;
-  uint is_within; /* both are links of one tree */
+  mask is_within; /* both are links of one tree */
 } pushed_pair;
 
 SHARED pushed_pair pushed_pair_of(pushed_side a, pushed_side b)
 {
-  pushed_pair p = {a, b, a.is_link && b.is_link && a.tree.number == b.tree.number ? 1u : 0u};
+  pushed_pair p = {a, b, a.is_link & b.is_link & (a.tree.number == b.tree.number)};
   return p;
 }
 
@@ -57,13 +57,22 @@ SHARED void push_row(pushed_pair *p, row_of_pair r, real impulse)
   push_side_of_pair(&p->b, scaled_force(r.b, impulse));
 }
 
-/* Of one tree: then each side has what the other one pushed it with. */
-SHARED void push_both_into_tree(pushed_pair *p)
+/* Within one tree each side has what the other one pushed it with. */
+SHARED void push_each_other(pushed_pair *p)
 {
-  push_into_tree(&p->a);
-  push_into_tree(&p->b);
-  p->a.velocity = pending_velocity(&p->a.tree, p->a.k);
-  p->b.velocity = pending_velocity(&p->b.tree, p->b.k);
+  if (!any_of(p->is_within)) return;
+  push_into_tree_if(p->is_within, &p->a);
+  push_into_tree_if(p->is_within, &p->b);
+  p->a.velocity = choose_motion(p->is_within, pending_velocity(&p->a.tree, p->a.k), p->a.velocity);
+  p->b.velocity = choose_motion(p->is_within, pending_velocity(&p->b.tree, p->b.k), p->b.velocity);
+}
+
+/* The velocities and pushes of one side, and those of another. */
+SHARED pushed_side choose_side(mask m, pushed_side a, pushed_side b)
+{
+  b.velocity = choose_motion(m, a.velocity, b.velocity);
+  b.pushed = choose_force(m, a.pushed, b.pushed);
+  return b;
 }
 
 SHARED void store_pair(pushed_pair *p, GLOBAL float4 *solver_velocity)

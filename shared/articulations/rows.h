@@ -2,7 +2,8 @@
  * degree of freedom each, solved one after another (Gauss-Seidel) by impulses that the whole tree answers.
  *
  * A row is that of a maximal joint (shared/joints/axes.h); only its response and its speed come from the tree. What is
- * pending of a settled tree (respond.h) is what the rows of a pass have done so far.
+ * pending of a settled tree (respond.h) is what the rows of a pass have done so far. Most limits are far away, so most
+ * passes push nothing, and then no row walks through the tree.
  */
 #ifndef TANDEM_SHARED_ARTICULATIONS_ROWS_H
 #define TANDEM_SHARED_ARTICULATIONS_ROWS_H
@@ -29,10 +30,11 @@ SHARED mask has_rows(tree_link l, joint_axis a)
   return l.exists & has_one_freedom(l) & (limited | driven);
 }
 
-SHARED axis_row row_of_link(const articulation *t, tree_link l)
+/* is_pending: whether the rows of any lane have pushed. */
+SHARED axis_row row_of_link(const articulation *t, tree_link l, uint is_pending)
 {
-  vec3 change;
-  pending_change(t, choose(l.exists, l.k, t->links), &change);
+  vec3 change = zero3();
+  if (is_pending) pending_change(t, choose(l.exists, l.k, t->links), &change);
   axis_row r;
   r.at.value = load_state(t, l.k, (uint)STATE_JOINT_POSITION).x;
   r.at.direction = r.at.turn = r.moment_a = r.moment_b = zero3();
@@ -42,25 +44,31 @@ SHARED axis_row row_of_link(const articulation *t, tree_link l)
   return r;
 }
 
-SHARED void solve_rows_of_link(GLOBAL const Parameters *parameters, const articulation *t, tree_link l,
-                               const joint_axis *axis, uint pass)
+/* Whether rows have pushed now. */
+SHARED uint solve_rows_of_link(GLOBAL const Parameters *parameters, const articulation *t, tree_link l,
+                               const joint_axis *axis, uint pass, uint is_pending)
 {
-  axis_row r = row_of_link(t, l);
+  axis_row r = row_of_link(t, l, is_pending);
   vec4 kept = load_state(t, l.k, (uint)STATE_ROW_IMPULSE);
   real sum = solve_rows_of_axis(parameters, &r, axis, &kept, pass);
   store_state(l.exists, t, l.k, (uint)STATE_ROW_IMPULSE, kept);
-  push_link_if(l.exists, t, l.k, no_force(), make_vec3(sum, R(0.0), R(0.0)));
+  mask pushes = l.exists & (sum != R(0.0));
+  if (!any_of(pushes)) return is_pending;
+  push_link_if(pushes, t, l.k, no_force(), make_vec3(sum, R(0.0), R(0.0)));
+  return 1u;
 }
 
-/* One pass; the tree is settled before the first and after the last. */
+/* One pass over a settled tree, which it leaves settled. */
 SHARED void solve_tree_rows(GLOBAL const Parameters *parameters, const articulation *t, uint pass)
 {
+  uint is_pending = 0u;
   for (uint k = 0; k < t->most_links; ++k) {
     tree_link l = tree_link_of(t, k);
     joint_axis axis = axis_of_rows(t, l);
     l.exists = has_rows(l, axis);
-    if (any_of(l.exists)) solve_rows_of_link(parameters, t, l, &axis, pass);
+    if (any_of(l.exists)) is_pending = solve_rows_of_link(parameters, t, l, &axis, pass, is_pending);
   }
+  if (is_pending) settle_tree(t);
 }
 
 #endif

@@ -10,8 +10,9 @@
 #include "shared/articulations/bodies.h"
 
 typedef struct {
-  uint body, is_link, k;
-  articulation tree;       /* of a link alone */
+  uint_lanes body, k;
+  mask is_link;
+  articulation tree;       /* of a body that is no link, one without links */
   spatial_velocity record; /* of the body in solver_velocity; of a link its masses count alone */
   spatial_motion velocity;
   symmetric6 inverse;
@@ -19,7 +20,7 @@ typedef struct {
 } pushed_side;
 
 /* The motion of a link with what is pending in its tree. */
-SHARED spatial_motion pending_velocity(const articulation *t, uint k)
+SHARED spatial_motion pending_velocity(const articulation *t, uint_lanes k)
 {
   vec3 of_joint;
   return add_motions(load_motion(t, k, (uint)WORK_VELOCITY), pending_change(t, k, &of_joint));
@@ -37,37 +38,39 @@ SHARED symmetric6 inverse_of_single_body(spatial_velocity m, symmetric3 inertia,
   return s;
 }
 
-/* A body that is no link, or that rests as a link of a tree in quarantine does. */
-SHARED pushed_side single_body_side(read_links links, write_link_states states, uint body, spatial_velocity record,
-                                    symmetric3 inertia, real locks)
+/* As if the body were no link. */
+SHARED pushed_side single_body_side(read_links links, write_link_states states, uint_lanes body,
+                                    spatial_velocity record, symmetric3 inertia, real locks)
 {
   pushed_side s;
   s.body = body;
-  s.is_link = 0u;
-  s.k = 0u;
+  s.k = (uint_lanes)0u;
   s.record = record;
   s.pushed = no_force();
-  s.tree = articulation_at(links, states, 0u);
+  s.tree = articulation_at(links, states, (uint_lanes)0u);
+  s.tree.links = (uint_lanes)0u;
+  s.is_link = has_links(&s.tree);
   s.velocity.linear = record.linear;
   s.velocity.angular = record.angular;
   s.inverse = inverse_of_single_body(record, inertia, to_uint(locks));
   return s;
 }
 
-/* record, inertia, locks: as the contact or the joint has loaded them; they move a body that is no link. It notes the
- * path to the link (respond.h), so both sides of a pair are loaded one after the other, in statements: compilers order
- * the arguments of a call as they like. */
-SHARED pushed_side pushed_side_of(read_links links, write_link_states states, uint body, spatial_velocity record,
-                                  symmetric3 inertia, real locks)
+/* in_table: whether the body is a link. A link of a tree in quarantine rests as other bodies there. record, inertia,
+ * locks: as the contact or the joint has loaded them; they move a body that is no link. It notes the path to the link
+ * (respond.h), so both sides of a pair are loaded one after the other, in statements: compilers order the arguments of
+ * a call as they like. */
+SHARED pushed_side pushed_side_of(mask in_table, read_links links, write_link_states states, uint_lanes body,
+                                  spatial_velocity record, symmetric3 inertia, real locks)
 {
   pushed_side s = single_body_side(links, states, body, record, inertia, locks);
-  if (!is_link(links.of_body, body)) return s;
-  s.tree = articulation_at(links, states, articulation_of_body(links.of_body, body));
-  if (s.tree.links == 0u) return s;
-  s.is_link = 1u;
-  s.k = links.of_body[LINK_WORDS * body + 2u];
-  s.velocity = pending_velocity(&s.tree, s.k);
-  s.inverse = load_symmetric6(&s.tree, s.k);
+  if (!any_of(in_table)) return s;
+  s.tree = articulation_at(links, states, choose(in_table, articulation_of_body(links.of_body, body), (uint_lanes)0u));
+  s.is_link = in_table & has_links(&s.tree);
+  s.tree.links = choose(s.is_link, s.tree.links, (uint_lanes)0u);
+  s.k = choose(s.is_link, load_uint(links.of_body, LINK_WORDS * body + 2u), (uint_lanes)0u);
+  s.velocity = choose_motion(s.is_link, pending_velocity(&s.tree, s.k), s.velocity);
+  s.inverse = choose_symmetric6(s.is_link, load_symmetric6(&s.tree, s.k), s.inverse);
   return s;
 }
 
@@ -96,39 +99,42 @@ SHARED void push_side_of_pair(pushed_side *s, spatial_force impulse)
 }
 
 /* What a link was pushed with goes through its tree; then its velocity is that of the tree. */
-SHARED void push_into_tree(pushed_side *s)
+SHARED void push_into_tree_if(mask wanted, pushed_side *s)
 {
-  if (!s->is_link) return;
-  push_link(&s->tree, s->k, s->pushed);
-  if (is_nonzero(s->pushed.force) | is_nonzero(s->pushed.moment)) note_pushed(&s->tree, R(1.0));
-  s->pushed = no_force();
+  mask pushes = wanted & s->is_link & (is_nonzero(s->pushed.force) | is_nonzero(s->pushed.moment));
+  if (any_of(pushes)) {
+    push_link_if(pushes, &s->tree, s->k, s->pushed, zero3());
+    note_pushed_if(pushes, &s->tree, R(1.0));
+  }
+  s->pushed = choose_force(wanted & s->is_link, no_force(), s->pushed);
 }
 
 SHARED void store_side_of_pair(pushed_side *s, GLOBAL float4 *solver_velocity)
 {
-  push_into_tree(s);
-  if (s->is_link || !(s->record.inverse_mass > R(0.0))) return;
+  push_into_tree_if(s->is_link, s);
+  mask moves = (s->record.inverse_mass > R(0.0)) & !s->is_link;
   s->record.linear = s->velocity.linear;
   s->record.angular = s->velocity.angular;
-  store_velocity(solver_velocity, s->body, s->record);
+  store_velocity_if(moves, solver_velocity, s->body, s->record);
 }
 
-/* Adds to the warm start of the next substep. */
+/* Adds to the warm start of the next substep; of a link it is a force. */
 SHARED void add_warm_start_of_side(const pushed_side *s, spatial_force impulse, real inverse_substep,
                                    GLOBAL float4 *warm_start_impulse)
 {
-  if (s->is_link) {
+  if (any_of(s->is_link)) {
     vec3 force = add_scaled(xyz(load_state(&s->tree, s->k, (uint)STATE_FORCE)), impulse.force, inverse_substep);
     vec3 moment = add_scaled(xyz(load_state(&s->tree, s->k, (uint)STATE_MOMENT)), impulse.moment, inverse_substep);
-    store_state(1, &s->tree, s->k, (uint)STATE_FORCE, extend(force, R(0.0)));
-    store_state(1, &s->tree, s->k, (uint)STATE_MOMENT, extend(moment, R(0.0)));
-    return;
+    store_state(s->is_link, &s->tree, s->k, (uint)STATE_FORCE, extend(force, R(0.0)));
+    store_state(s->is_link, &s->tree, s->k, (uint)STATE_MOMENT, extend(moment, R(0.0)));
   }
-  if (!(s->record.inverse_mass > R(0.0))) return;
-  vec3 linear = add(xyz(load_float4(warm_start_impulse, s->body * 2u)), impulse.force);
-  vec3 angular = add(xyz(load_float4(warm_start_impulse, s->body * 2u + 1u)), impulse.moment);
-  store_float4(warm_start_impulse, s->body * 2u, extend(linear, R(0.0)));
-  store_float4(warm_start_impulse, s->body * 2u + 1u, extend(angular, R(0.0)));
+  mask moves = (s->record.inverse_mass > R(0.0)) & !s->is_link;
+  if (!any_of(moves)) return;
+  uint_lanes row = s->body * 2u;
+  vec3 linear = add(xyz(load_float4(warm_start_impulse, row)), impulse.force);
+  vec3 angular = add(xyz(load_float4(warm_start_impulse, row + 1u)), impulse.moment);
+  store_float4_if(moves, warm_start_impulse, row, extend(linear, R(0.0)));
+  store_float4_if(moves, warm_start_impulse, row + 1u, extend(angular, R(0.0)));
 }
 
 #endif

@@ -66,13 +66,13 @@ SHARED void accelerate_articulations_item(GLOBAL const Parameters *parameters, r
   write_velocities(links, &t, solver_velocity);
 }
 
-/* pass: PASS_BOUNCING has no rows; it settles what the contacts have pushed. */
+/* Settles what the contacts have pushed, and solves the rows of joints, which PASS_BOUNCING has not. */
 SHARED void solve_articulations_item(GLOBAL const Parameters *parameters, read_links links, write_link_states states,
                                      GLOBAL float4 *solver_velocity, uint pass, item_index i)
 {
   articulation t = articulation_at(links, states, (uint_lanes)i);
-  if (pass != (uint)PASS_BOUNCING) solve_tree_rows(parameters, &t, pass);
   settle_tree(&t);
+  if (pass != (uint)PASS_BOUNCING) solve_tree_rows(parameters, &t, pass);
   write_velocities(links, &t, solver_velocity);
 }
 
@@ -107,7 +107,7 @@ SHARED void move_articulations_item(GLOBAL const Parameters *parameters, read_li
   move_tree_freely(&t, parameters->substep);
   vec3 gravity = gravity_at(parameters, bodies.gravity, body_of_link(links, &t, (uint_lanes)0u));
   return_to_parabola_if(tree_falls_freely(links, body_mass, body_falls, &t), &t, gravity, parameters->substep);
-  note_pushed(&t, R(0.0));
+  note_pushed_if(has_links(&t), &t, R(0.0));
   write_velocities(links, &t, moved.velocity);
   write_poses(links, bodies, &t, moved.delta, moved.orientation);
 }

@@ -10,19 +10,13 @@
 #include "shared/articulations/free_motion.h"
 #include "shared/articulations/rows.h"
 
-SHARED void solve_and_settle(GLOBAL const Parameters *parameters, const articulation *t, uint pass)
-{
-  solve_tree_rows(parameters, t, pass);
-  settle_tree(t);
-}
-
 /* has_rows: whether any tree of the launch has a row. */
 SHARED void advance_tree(GLOBAL const Parameters *parameters, const articulation *t, vec3 gravity, uint has_rows)
 {
   accelerate_tree(t, gravity, parameters->substep);
-  if (has_rows != 0u) solve_and_settle(parameters, t, PASS_BIASED);
+  if (has_rows != 0u) solve_tree_rows(parameters, t, PASS_BIASED);
   move_tree_freely(t, parameters->substep);
-  if (has_rows != 0u) solve_and_settle(parameters, t, PASS_RELAXING);
+  if (has_rows != 0u) solve_tree_rows(parameters, t, PASS_RELAXING);
 }
 
 #endif

@@ -14,10 +14,13 @@ SHARED uint node_of(GLOBAL const Parameters *parameters, GLOBAL const uint *body
   return HAS_FEATURE(parameters, ARTICULATIONS) ? body_link[LINK_WORDS * body] : body;
 }
 
-SHARED uint articulation_of_body(GLOBAL const uint *body_link, uint body) { return body_link[LINK_WORDS * body + 1u]; }
-SHARED uint is_link(GLOBAL const uint *body_link, uint body)
+SHARED uint_lanes articulation_of_body(GLOBAL const uint *body_link, uint_lanes body)
 {
-  return articulation_of_body(body_link, body) != INDEX_NONE ? 1u : 0u;
+  return load_uint(body_link, LINK_WORDS * body + 1u);
+}
+SHARED mask is_link(GLOBAL const uint *body_link, uint_lanes body)
+{
+  return articulation_of_body(body_link, body) != (uint_lanes)INDEX_NONE;
 }
 
 #endif

@@ -141,12 +141,11 @@ TEST_CASE("an MJCF slide with stiffness and damping swings about where its sprin
   }
 }
 
-TEST_CASE("an MJCF motor's range bounds a spring, a velocity drive turns as fast as it says", "[physics]")
+TEST_CASE("an MJCF velocity drive turns as fast as it says, with the force that it has", "[physics]")
 {
   const Scene scene = parse_scene_mjcf(R"(<mujoco><option gravity="0 0 0"/><worldbody>
       <body><joint name="j"/><geom type="box" size="1 1 1" mass="6"/></body></worldbody>
-    <actuator><velocity joint="j" kv="100" ctrlrange="2 3"/>
-      <motor joint="j" gear="4" ctrlrange="-1 1"/></actuator></mujoco>)",
+    <actuator><velocity joint="j" kv="100" ctrlrange="2 3" forcerange="-4 4"/></actuator></mujoco>)",
                                        "drive.xml");
   World world(scene);
   const double moment = 6 * 4 / 6.0; /* of a cube of 2 m */

@@ -45,6 +45,22 @@ double real_number(const std::string &option, const std::string &text)
   return value;
 }
 
+void add_coordinates_option(CLI::App &parser, std::string &coordinates)
+{
+  parser
+      .add_option("--coordinates", coordinates,
+                  "of joints: maximal, or reduced: trees of them become articulations (docs/articulations.md)")
+      ->type_name("NAME")
+      ->capture_default_str();
+}
+
+Coordinates coordinates_of(const std::string &text)
+{
+  if (text == "maximal") return Coordinates::maximal;
+  if (text == "reduced") return Coordinates::reduced;
+  throw InputError(fmt::format("--coordinates '{}': use maximal or reduced", text));
+}
+
 SceneOptions::SceneOptions(CLI::App &parser, bool one_backend) : one_backend_(one_backend)
 {
   const Settings defaults;
@@ -98,6 +114,7 @@ SceneOptions::SceneOptions(CLI::App &parser, bool one_backend) : one_backend_(on
                   "build and run every feature, needed or not: the same bits, slower");
   parser.add_flag("--allow-outside-files", outside_files_,
                   "let a scene file name files (buffers, OBJ files) outside its own folder");
+  add_coordinates_option(parser, coordinates_);
   parser.add_flag("--inexact", inexact_, "accept devices that fail the exactness self-test");
 }
 
@@ -172,7 +189,8 @@ Scene SceneOptions::scene(DistinctFiles &files) const
 {
   const auto load = [&] {
     const FilesRead read;
-    Scene scene = load_scene(scene_, outside_files_ ? OutsideFiles::allowed : OutsideFiles::refused);
+    Scene scene = load_scene(scene_, outside_files_ ? OutsideFiles::allowed : OutsideFiles::refused,
+                             coordinates_of(coordinates_));
     for (const std::string &path : read.paths) files.reads("SCENE", path);
     for (const std::string &warning : warnings_of(scene, scene_)) fmt::print(stderr, "tandem: {}\n", warning);
     return scene;
@@ -201,6 +219,7 @@ std::string SceneOptions::typed_again(const std::string &broadphase) const
   add("--support-cells", support_cells_, fmt::format("{}", defaults.support_cells));
   add("--batching", batching_, name_of(defaults.batching));
   add("--max-pairs", max_pairs_, fmt::format("{}", defaults.max_pairs));
+  add("--coordinates", coordinates_, "maximal");
   if (outside_files_) text += " --allow-outside-files";
   if (check_) text += " --check";
   if (events_) text += " --events events.json";

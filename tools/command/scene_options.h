@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 
 #include <tandem/backend.h>
+#include <tandem/load_scene.h>
 #include <tandem/scene.h>
 #include <tandem/settings.h>
 
@@ -19,6 +20,10 @@ namespace tandem {
 uint64_t whole_number(const std::string &option, const std::string &text, uint64_t lowest, uint64_t highest);
 /* Parses any finite number that strtod accepts. */
 double real_number(const std::string &option, const std::string &text);
+
+/* --coordinates, for a text that is "maximal" at first; what it says, or InputError. */
+void add_coordinates_option(CLI::App &parser, std::string &coordinates);
+Coordinates coordinates_of(const std::string &text);
 
 class SceneOptions {
 public:
@@ -46,6 +51,7 @@ private:
   const CLI::Option *steps_option_ = nullptr;
   std::string scene_, on_ = "tbb", place_, steps_ = "120", step_, substeps_, iterations_, joint_hertz_;
   std::string solver_, broadphase_, bounds_, midphase_, narrowphase_, support_, support_cells_, batching_, max_pairs_;
+  std::string coordinates_ = "maximal";
   bool no_specialise_ = false, sleep_ = false, inexact_ = false, check_ = false, events_ = false,
        outside_files_ = false;
 };

@@ -9,9 +9,10 @@
 
 namespace tandem {
 
-/* The joints of a scene that are to be coordinates of a tree. They are fixed joints, hinges, sliders and balls, and
- * connect dynamic bodies without a loop; at most one of them holds the tree to the world or to a fixed body. Without
- * such a joint the tree is free. Other joints of the scene may close loops of its links, or hold them otherwise. */
+/* The joints of a scene that are to be coordinates of a tree. They are fixed joints, hinges, sliders, and joints that
+ * hold all directions and no rotation (ball, cone_twist, such a six_dof), and connect dynamic bodies without a loop; at
+ * most one of them holds the tree to the world or to a fixed body. Without such a joint the tree is free. Other joints
+ * of the scene may close loops of its links, or hold them otherwise. */
 struct Articulation {
   std::string name;
   std::vector<uint32_t> joints; /* indices into Scene::joints, in any order */

@@ -79,4 +79,11 @@ private:
   std::unique_ptr<Tables> tables_;
 };
 
+/* Makes articulations of the joints of a scene, if it has none: each tree of joints that a tree can have
+ * (articulation.h), in the order of the joints. A joint that closes a loop of those before it, and one that no tree can
+ * have, stays as it is; Scene::notes says how many do, and why the first of them does. armatures: of each joint of the
+ * scene, as Articulation::armatures; or none. Throws InputError if the scene is not valid, before or with
+ * articulations. */
+TANDEM_API void make_articulations(Scene &scene, std::span<const float> armatures = {});
+
 } // namespace tandem

@@ -45,11 +45,13 @@ struct JointAxis {
   float lower = -unlimited, upper = unlimited;  /* limits; equal ones hold the axis there */
   float limit_stiffness = 0, limit_damping = 0; /* of soft limits; 0: hard ones */
   float restitution = 0; /* of hard limits: the share of the speed with which what arrives leaves; 0 to 1 */
-  /* A spring pulls towards target_position and a damper towards target_velocity, with at most max_force in all; both
-   * are stable at any stiffness. A motor has neither: it holds target_velocity as far as max_force suffices. */
+  /* A spring pulls towards target_position and a damper towards target_velocity, with at most max_force in all,
+   * `force` included; both are stable at any stiffness. A motor has neither: it holds target_velocity as far as
+   * max_force suffices. */
   float target_position = 0, target_velocity = 0;
   float stiffness = 0, damping = 0; /* N/m and N s/m, or N m/rad and N m s/rad */
   bool motor = false;
+  float force = 0;             /* N, or N m: pushes besides spring and damper, as an actuator does; a motor has none */
   float max_force = unlimited; /* N, or N m */
   float friction = 0;          /* N, or N m: brakes with at most this */
   float max_speed = unlimited; /* m/s, or rad/s */

@@ -14,7 +14,7 @@ using JointKind = LinkJoint::Kind;
 JointAxis reversed(JointAxis axis)
 {
   std::swap(axis.lower, axis.upper);
-  for (float *x : {&axis.lower, &axis.upper, &axis.target_position, &axis.target_velocity}) *x = 0 - *x;
+  for (float *x : {&axis.lower, &axis.upper, &axis.target_position, &axis.target_velocity, &axis.force}) *x = 0 - *x;
   return axis;
 }
 
@@ -50,21 +50,20 @@ GroupedJoint alone(const LinkJoint &single)
   if (single.kind == JointKind::hinge) joint.type = JointType::hinge;
   if (single.kind == JointKind::slide) joint.type = JointType::slider;
   if (single.kind == JointKind::ball) joint.rotations.fill(single.settings);
-  else (single.kind == JointKind::hinge ? joint.rotations : joint.directions)[0] = single.settings;
+  else {
+    (single.kind == JointKind::hinge ? joint.rotations : joint.directions)[0] = single.settings;
+    result.axes = {{single.kind == JointKind::hinge ? 3u : 0u, false}};
+  }
   return result;
 }
 
-/* The axis of the frame along which a joint's is, and whether it points the same way; nothing if there is none. */
-struct AlongAxis {
-  size_t axis;
-  bool reversed;
-};
-std::optional<AlongAxis> along_axis(const RigidFrame &frame, const LinkJoint &joint)
+/* The axis of the frame along which a joint's is; nothing if there is none. */
+std::optional<GroupedAxis> along_axis(const RigidFrame &frame, const LinkJoint &joint)
 {
   const Matrix axes = rotation_matrix(frame.rotation);
   for (int axis = 0; axis < 3; ++axis) {
     const double cosine = joint.axis.dot(axes.column(axis));
-    if (std::abs(cosine) > 1 - right_angle * right_angle) return AlongAxis{size_t(axis), cosine < 0};
+    if (std::abs(cosine) > 1 - right_angle * right_angle) return GroupedAxis{size_t(axis), cosine < 0};
   }
   return {};
 }
@@ -82,13 +81,14 @@ bool place_axes(std::span<const LinkJoint> joints, GroupedJoint &group)
 {
   Axes free_directions, free_rotations;
   for (const LinkJoint &joint : joints) {
-    const std::optional<AlongAxis> along = along_axis(group.frame, joint);
+    const std::optional<GroupedAxis> along = along_axis(group.frame, joint);
     if (!along) return false;
     const bool turns = joint.kind == JointKind::hinge;
     Axes &is_free = turns ? free_rotations : free_directions;
     (along->axis == 0 ? is_free.x : along->axis == 1 ? is_free.y : is_free.z) = true;
     (turns ? group.joint.rotations : group.joint.directions)[along->axis] =
         along->reversed ? reversed(joint.settings) : joint.settings;
+    group.axes.push_back({along->axis + (turns ? 3 : 0), along->reversed});
   }
   group.joint.type = JointType::six_dof;
   group.joint.held_directions = {!free_directions.x, !free_directions.y, !free_directions.z};

@@ -20,10 +20,17 @@
 
 namespace tandem {
 
+/* The axis of a joint of the scene that one of the link's is, and whether it points the other way. */
+struct GroupedAxis {
+  size_t axis; /* 0 to 2: directions, 3 to 5: rotations */
+  bool reversed;
+};
+
 struct GroupedJoint {
   Joint joint; /* type, what it holds, axes and name; its bodies and their frames are to be set */
   RigidFrame frame;
-  double gap = 0; /* m: how far the axes of hinges pass each other; they meet halfway */
+  std::vector<GroupedAxis> axes; /* of each of the joints; none of a ball */
+  double gap = 0;                /* m: how far the axes of hinges pass each other; they meet halfway */
 };
 
 /* The places and axes of the links' joints are in the frame in which `frame` is. reach: the gap that is bridged, m.

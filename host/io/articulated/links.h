@@ -6,11 +6,14 @@
  *   link without mass, one child    none: its joints become the child's, before the child's own
  *   joints of one link              one joint of the scene, if their axes are those of one frame (joint_groups.h)
  *
- * Angles and ways of joints are 0 where the links stand. This is not a public header.
+ * In reduced coordinates each joint of a link is one of the scene, between bodies of little mass, and all of them are
+ * articulations. Angles and ways of joints are 0 where the links stand. This is not a public header.
  */
 #pragma once
 
 #include <optional>
+
+#include <tandem/load_scene.h>
 
 #include "host/geometry/mass_properties.h"
 #include "host/io/articulated/frame.h"
@@ -31,6 +34,7 @@ struct LinkJoint {
   Kind kind = Kind::hinge;
   Vector at{0, 0, 0}, axis{0, 0, 1}; /* in the link's frame; the axis is of unit length */
   JointAxis settings;                /* of a ball: of each of its three rotations */
+  double armature = 0;               /* kg m^2, or kg */
 };
 
 struct Link {
@@ -55,10 +59,12 @@ struct LinkConnection {
   RigidFrame a, b; /* in the links' frames */
 };
 
-/* One joint follows another: URDF's mimic, MJCF's equality of joints. */
+/* One joint follows another: URDF's mimic, MJCF's equality of joints. The coordinate of the joint is offset + factor
+ * times the other's; with a factor of 0 it is held, and `followed` may be empty. */
 struct JointCoupling {
   int line = 0;
   std::string joint, followed, what; /* what: how the file calls it */
+  double factor = 1, offset = 0;
 };
 
 struct Robot {
@@ -66,10 +72,11 @@ struct Robot {
   std::vector<Link> links;
   std::vector<LinkConnection> connections;
   std::vector<JointCoupling> couplings;
+  Coordinates coordinates = Coordinates::maximal;
 };
 
-/* Adds the robot's bodies and joints to a scene. Throws InputError, file and line first, for a link that cannot be a
- * body: one without mass and with several children, or with moments that no solid has. */
+/* Adds the robot's bodies and joints to a scene without any. Throws InputError, file and line first, for a link that
+ * cannot be a body: one without mass and with several children, or with moments that no solid has. */
 void add_robot(const Robot &robot, XmlNotes &notes, Scene &scene);
 
 } // namespace tandem

@@ -1,8 +1,11 @@
 /* robot.cpp - from a tree of links to bodies and joints; see links.h. */
 #include <algorithm>
+#include <map>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+
+#include <tandem/articulations.h>
 
 #include "host/base/printable.h"
 #include "host/geometry/shape_mass.h"
@@ -11,9 +14,11 @@
 namespace tandem {
 namespace {
 
-constexpr double share_of_mass = 0.1; /* of a body that stands between two joints of a link, in the link's */
-constexpr size_t most_of_frame = 6;   /* the axes of one frame */
-constexpr size_t most_parts = 6;      /* joints of a link, each with the axes of a frame */
+/* Of a body that stands between two joints of a link, in the link's mass. Trees hold any mass; this one keeps them
+ * finite where the axes of three hinges lie in one plane. */
+constexpr double share_of_mass = 0.1, share_in_tree = 0.001;
+constexpr size_t most_of_frame = 6; /* the axes of one frame */
+constexpr size_t most_parts = 6;    /* joints of a link, each with the axes of a frame */
 
 /* Links that move as one. The first of them has the joints. */
 struct LinkGroup {
@@ -26,6 +31,24 @@ struct LinkGroup {
   bool gone = false;                  /* it had no mass */
   uint32_t body = no_body;
 };
+
+/* Where a joint of a link is in the scene. */
+struct PlacedAxis {
+  uint32_t joint;
+  GroupedAxis axis;
+};
+
+/* Joints of a link that are one of the scene. */
+struct JointsOfFrame {
+  GroupedJoint grouped;
+  std::span<const LinkJoint> joints;
+};
+
+void scale_mass(Body &body, double share)
+{
+  body.mass = round_to_float(share * double{body.mass});
+  for (float &moment : body.inertia) moment = round_to_float(share * double{moment});
+}
 
 class RobotBuilder {
 public:
@@ -49,13 +72,17 @@ private:
   void set_shape(const LinkGroup &group, const RigidFrame &frame, Body &body);
   void take_ghost_shape(Body &body);
   void add_joints(const LinkGroup &group);
-  uint32_t add_body_between(const LinkGroup &group, size_t parts, const std::string &joint);
+  std::vector<JointsOfFrame> parts_of(const LinkGroup &group);
+  uint32_t add_body_between(const LinkGroup &group, double share, const std::string &joint);
   void add_joint(const GroupedJoint &grouped, std::span<const LinkJoint> joints, uint32_t body_a, uint32_t body_b);
   void keep_apart(const LinkGroup &group, uint32_t parent);
   void note_grouping(const LinkGroup &group, const GroupedJoint &grouped, std::span<const LinkJoint> joints);
   void set_frame(uint32_t body, const RigidFrame &at, Point &position, Quat &orientation) const;
   void add_connections();
-  void note_couplings();
+  void hold(const PlacedAxis &place, double value);
+  void couple(const JointCoupling &coupling);
+  void note_armatures(const LinkGroup &group);
+  bool is_tree() const { return robot_.coordinates == Coordinates::reduced; }
 
   const Robot &robot_;
   XmlNotes &notes_;
@@ -63,6 +90,8 @@ private:
   std::vector<RigidFrame> places_; /* of the links in the world */
   std::vector<size_t> group_of_;   /* of each link; Link::world: it stands still */
   std::vector<LinkGroup> groups_;
+  std::vector<float> armatures_;              /* of the joints of the scene */
+  std::map<std::string, PlacedAxis> axis_of_; /* of hinges and slides, by their names */
 };
 
 void RobotBuilder::place_links()
@@ -248,7 +277,16 @@ void RobotBuilder::add_joint(const GroupedJoint &grouped, std::span<const LinkJo
   joint.body_b = body_b;
   set_frame(body_a, grouped.frame, joint.position_a, joint.orientation_a);
   set_frame(body_b, grouped.frame, joint.position_b, joint.orientation_b);
+  for (size_t k = 0; k < grouped.axes.size(); ++k)
+    axis_of_.insert_or_assign(joints[k].name, PlacedAxis{uint32_t(scene_.joints.size()), grouped.axes[k]});
   scene_.joints.push_back(joint);
+  armatures_.push_back(joints.size() == 1 ? round_to_float(joints.front().armature) : 0);
+}
+
+void RobotBuilder::note_armatures(const LinkGroup &group)
+{
+  for (const LinkJoint &joint : group.joints)
+    if (joint.armature > 0) notes_.add(base_of(group).line, "armature is of reduced coordinates alone");
 }
 
 void RobotBuilder::note_grouping(const LinkGroup &group, const GroupedJoint &grouped, std::span<const LinkJoint> joints)
@@ -266,14 +304,11 @@ void RobotBuilder::note_grouping(const LinkGroup &group, const GroupedJoint &gro
 }
 
 /* A copy of the link's body with a part of its mass, which collides with nothing. */
-uint32_t RobotBuilder::add_body_between(const LinkGroup &group, size_t parts, const std::string &joint)
+uint32_t RobotBuilder::add_body_between(const LinkGroup &group, double share, const std::string &joint)
 {
-  const Body &link = scene_.bodies[group.body];
-  Body between = link;
-  const double whole = 1 / (1 - share_of_mass * double(parts)); /* of the link's, which comes last */
+  Body between = scene_.bodies[group.body];
   between.name += fmt::format(" after {}", joint);
-  between.mass = round_to_float(share_of_mass * whole * double{link.mass});
-  for (float &moment : between.inertia) moment = round_to_float(share_of_mass * whole * double{moment});
+  scale_mass(between, share);
   between.shape_position = {0, 0, 0};
   between.shape_orientation = {0, 0, 0, 1};
   take_ghost_shape(between);
@@ -292,39 +327,46 @@ void RobotBuilder::keep_apart(const LinkGroup &group, uint32_t parent)
   scene_.joints.back().name = fmt::format("{} beside {}", base_of(group).name, scene_.bodies[parent].name);
 }
 
-/* From the parent outwards, as many joints as have the axes of one frame are one joint. */
-void RobotBuilder::add_joints(const LinkGroup &group)
+/* From the parent outwards, as many joints as have the axes of one frame are one joint; each is one in a tree. */
+std::vector<JointsOfFrame> RobotBuilder::parts_of(const LinkGroup &group)
 {
-  if (group.joints.empty()) return;
   const Body &link = scene_.bodies[group.body];
   const float largest = *std::max_element(link.inertia.begin(), link.inertia.end());
   const double reach = std::sqrt(double{largest} / double{link.mass}); /* the radius of gyration */
-  std::vector<std::pair<GroupedJoint, std::span<const LinkJoint>>> parts;
-  for (std::span<const LinkJoint> rest = group.joints; !rest.empty(); rest = rest.subspan(parts.back().second.size()))
-    for (size_t count = std::min(rest.size(), most_of_frame); count > 0; --count)
+  std::vector<JointsOfFrame> parts;
+  for (std::span<const LinkJoint> rest = group.joints; !rest.empty(); rest = rest.subspan(parts.back().joints.size()))
+    for (size_t count = is_tree() ? 1 : std::min(rest.size(), most_of_frame); count > 0; --count)
       if (const auto grouped = group_joints(rest.first(count), reach)) {
-        parts.emplace_back(*grouped, rest.first(count));
+        parts.push_back({*grouped, rest.first(count)});
         note_grouping(group, *grouped, rest.first(count));
         break;
       }
+  if (!is_tree() && parts.size() > most_parts)
+    refuse(base_of(group), "has more than six joints whose axes are not at right angles");
+  return parts;
+}
+
+/* A body stands between each two of the parts. */
+void RobotBuilder::add_joints(const LinkGroup &group)
+{
+  if (group.joints.empty()) return;
+  const std::vector<JointsOfFrame> parts = parts_of(group);
   const uint32_t parent = body_of(group.parent);
-  const size_t between = parts.size() - 1;
-  if (parts.size() > most_parts) refuse(base_of(group), "has more than six joints whose axes are not at right angles");
-  const double kept = 1 - share_of_mass * double(between);
-  Body &body = scene_.bodies[group.body];
-  body.mass = round_to_float(kept * double{body.mass});
-  for (float &moment : body.inertia) moment = round_to_float(kept * double{moment});
+  const double share = is_tree() ? share_in_tree : share_of_mass;
   uint32_t before = parent;
   for (size_t k = 0; k < parts.size(); ++k) {
     const uint32_t next =
-        k + 1 < parts.size() ? add_body_between(group, between, names_of_joints(parts[k].second)) : group.body;
-    add_joint(parts[k].first, parts[k].second, before, next);
+        k + 1 < parts.size() ? add_body_between(group, share, names_of_joints(parts[k].joints)) : group.body;
+    add_joint(parts[k].grouped, parts[k].joints, before, next);
     before = next;
   }
-  if (between == 0) return;
-  notes_.add(base_of(group).line, fmt::format("{} have not the axes of one frame: bodies with {:g} of the mass stand "
-                                              "between them",
-                                              names_of_joints(group.joints), share_of_mass));
+  scale_mass(scene_.bodies[group.body], 1 - share * double(parts.size() - 1));
+  if (!is_tree()) note_armatures(group);
+  if (parts.size() == 1) return;
+  if (!is_tree())
+    notes_.add(base_of(group).line, fmt::format("{} have not the axes of one frame: bodies with {:g} of the mass stand "
+                                                "between them",
+                                                names_of_joints(group.joints), share));
   keep_apart(group, parent);
 }
 
@@ -351,12 +393,35 @@ void RobotBuilder::add_connections()
   }
 }
 
-/* The one place where couplings of joints end. */
-void RobotBuilder::note_couplings()
+/* Limits at one value hold an axis there. */
+void RobotBuilder::hold(const PlacedAxis &place, double value)
 {
-  for (const JointCoupling &coupling : robot_.couplings)
-    notes_.add(coupling.line, fmt::format("{}: joint \"{}\" does not follow joint \"{}\"", coupling.what,
-                                          coupling.joint, coupling.followed));
+  Joint &joint = scene_.joints[place.joint];
+  JointAxis &axis = place.axis.axis < 3 ? joint.directions[place.axis.axis] : joint.rotations[place.axis.axis - 3];
+  axis.lower = axis.upper = round_to_float(place.axis.reversed ? -value : value);
+}
+
+/* q = offset + factor q_followed; each coordinate is that of the scene's joint, or its opposite. */
+void RobotBuilder::couple(const JointCoupling &coupling)
+{
+  const auto joint = axis_of_.find(coupling.joint), followed = axis_of_.find(coupling.followed);
+  if (coupling.factor == 0 && joint != axis_of_.end()) return hold(joint->second, coupling.offset);
+  if (is_tree() || joint == axis_of_.end() || followed == axis_of_.end())
+    return notes_.add(coupling.line,
+                      fmt::format("{}: joint \"{}\" does not follow joint \"{}\"{}", coupling.what, coupling.joint,
+                                  coupling.followed, is_tree() ? " in reduced coordinates" : ""));
+  const auto coordinate_of = [](const PlacedAxis &place) { return JointCoordinate(place.axis.axis + 1); };
+  const double sign = joint->second.axis.reversed ? -1 : 1, other = followed->second.axis.reversed ? -1 : 1;
+  Coupling mimic;
+  mimic.name = fmt::format("{} follows {}", coupling.joint, coupling.followed);
+  mimic.type = CouplingType::mimic;
+  mimic.joint_a = joint->second.joint;
+  mimic.joint_b = followed->second.joint;
+  mimic.coordinate_a = coordinate_of(joint->second);
+  mimic.coordinate_b = coordinate_of(followed->second);
+  mimic.ratio = round_to_float(-coupling.factor * sign * other);
+  mimic.offset = round_to_float(coupling.offset * sign);
+  scene_.couplings.push_back(mimic);
 }
 
 void RobotBuilder::build()
@@ -371,7 +436,9 @@ void RobotBuilder::build()
   for (const LinkGroup &group : groups_)
     if (!group.gone) add_joints(group);
   add_connections();
-  note_couplings();
+  for (const JointCoupling &coupling : robot_.couplings) couple(coupling);
+  armatures_.resize(scene_.joints.size());
+  if (is_tree()) make_articulations(scene_, armatures_);
 }
 
 } // namespace

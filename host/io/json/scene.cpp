@@ -104,6 +104,7 @@ template <typename Field> void each_field(const JointAxis *, Field &&field)
   field("stiffness", &JointAxis::stiffness);
   field("damping", &JointAxis::damping);
   field("motor", &JointAxis::motor);
+  field("force", &JointAxis::force);
   field("max_force", &JointAxis::max_force);
   field("friction", &JointAxis::friction);
   field("max_speed", &JointAxis::max_speed);

@@ -20,6 +20,7 @@ constexpr const char *joint_attributes[] = {"name",
                                             "stiffness",
                                             "damping",
                                             "frictionloss",
+                                            "armature",
                                             "actuatorfrcrange",
                                             "actuatorfrclimited"};
 constexpr const char *actuator_attributes[] = {"name", "class",       "joint",     "gear",         "kp",
@@ -72,6 +73,7 @@ void read_passive(const XmlElement &joint, const MjcfCompiler &compiler, LinkJoi
   add_pull(axis.stiffness, axis.target_position, stiffness, rest - mjcf_reference(joint, compiler));
   if (result.kind == LinkJoint::Kind::ball) axis.target_position = 0;
   axis.damping = round_to_float(joint.at_least_zero_or("damping", 0));
+  result.armature = joint.at_least_zero_or("armature", 0);
   axis.friction = round_to_float(joint.at_least_zero_or("frictionloss", 0));
   if (compiler.is_limited(joint, "actuatorfrclimited", "actuatorfrcrange"))
     bound_force(largest_in(range_of(joint, "actuatorfrcrange")), axis);
@@ -134,12 +136,10 @@ void drive_mjcf_joint(const XmlElement &actuator, const MjcfCompiler &compiler, 
     add_pull(axis.stiffness, axis.target_position, stiffness, control / gear - reference);
     add_pull(axis.damping, axis.target_velocity, damping, places ? 0 : control / gear);
   }
+  if (actuator.name == "motor")
+    return notes.add(actuator, "a <motor> exerts nothing by itself; a program sets JointAxis::force");
   if (compiler.is_limited(actuator, "forcelimited", "forcerange"))
     bound_force(std::abs(gear) * largest_in(range_of(actuator, "forcerange")), axis);
-  if (actuator.name != "motor") return;
-  notes.add(actuator, "a <motor> exerts nothing by itself; its largest force bounds what drives its axis");
-  if (compiler.is_limited(actuator, "ctrllimited", "ctrlrange"))
-    bound_force(std::abs(gear) * largest_in(range_of(actuator, "ctrlrange")), axis);
 }
 
 } // namespace tandem

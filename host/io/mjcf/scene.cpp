@@ -1,6 +1,8 @@
 /* scene.cpp - the sections of an MJCF file, in the order in which each needs the others; see scene.h. */
 #include "host/io/mjcf/scene.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "host/io/mjcf/bodies.h"
@@ -11,10 +13,12 @@ namespace {
 
 class MjcfReader {
 public:
-  MjcfReader(XmlElement root, OutsideFiles outside)
+  MjcfReader(XmlElement root, OutsideFiles outside, Coordinates coordinates)
       : root_(std::move(root)), geoms_(compiler_, defaults_, outside, notes_, scene_),
         bodies_(compiler_, defaults_, geoms_, notes_)
-  {}
+  {
+    robot_.coordinates = coordinates;
+  }
   Scene read();
 
 private:
@@ -115,10 +119,18 @@ std::string MjcfReader::joint_name(const XmlElement &element, const char *key) c
 
 void MjcfReader::couple(const XmlElement &equality)
 {
-  const std::string joint = joint_name(equality, "joint1");
-  if (!equality.has("joint2"))
-    return notes_.add(equality, fmt::format("<joint> of <equality> that holds joint \"{}\" is not held", joint));
-  robot_.couplings.push_back({equality.line, joint, joint_name(equality, "joint2"), "<joint> of <equality>"});
+  constexpr const char *known[] = {"name", "class", "joint1", "joint2", "polycoef", "active"};
+  notes_.add_other_attributes(equality, known);
+  const bool follows = equality.has("joint2");
+  std::vector<double> coefficients = equality.numbers("polycoef", 1, 5);
+  if (coefficients.empty()) coefficients = {0, 1};
+  coefficients.resize(5);
+  JointCoupling coupling{
+      equality.line,           joint_name(equality, "joint1"), follows ? joint_name(equality, "joint2") : "",
+      "<joint> of <equality>", follows ? coefficients[1] : 0,  coefficients[0]};
+  if (std::any_of(coefficients.begin() + 2, coefficients.end(), [](double x) { return x != 0; }))
+    notes_.add(equality, "polycoef beyond its second number is not held");
+  robot_.couplings.push_back(std::move(coupling));
 }
 
 void MjcfReader::read_equality(const XmlElement &written)
@@ -181,14 +193,14 @@ Scene MjcfReader::read()
 
 } // namespace
 
-Scene parse_scene_mjcf(const std::string &text, const std::string &path, OutsideFiles outside)
+Scene parse_scene_mjcf(const std::string &text, const std::string &path, OutsideFiles outside, Coordinates coordinates)
 {
-  return MjcfReader(parse_xml(text, path), outside).read();
+  return MjcfReader(parse_xml(text, path), outside, coordinates).read();
 }
 
-Scene read_scene_mjcf(const std::string &path, OutsideFiles outside)
+Scene read_scene_mjcf(const std::string &path, OutsideFiles outside, Coordinates coordinates)
 {
-  return parse_scene_mjcf(read_file(path), path, outside);
+  return parse_scene_mjcf(read_file(path), path, outside, coordinates);
 }
 
 } // namespace tandem

@@ -13,7 +13,9 @@
 namespace tandem {
 
 /* Throws InputError, one line: `file: line 12: <element name="...">: what`. */
-Scene read_scene_mjcf(const std::string &path, OutsideFiles outside = OutsideFiles::refused);
-Scene parse_scene_mjcf(const std::string &text, const std::string &path, OutsideFiles outside = OutsideFiles::refused);
+Scene read_scene_mjcf(const std::string &path, OutsideFiles outside = OutsideFiles::refused,
+                      Coordinates coordinates = Coordinates::maximal);
+Scene parse_scene_mjcf(const std::string &text, const std::string &path, OutsideFiles outside = OutsideFiles::refused,
+                       Coordinates coordinates = Coordinates::maximal);
 
 } // namespace tandem

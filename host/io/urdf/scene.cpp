@@ -15,7 +15,10 @@ constexpr double density_of_shapes = 1000; /* kg/m^3, of links that move and hav
 
 class UrdfReader {
 public:
-  UrdfReader(XmlElement root, OutsideFiles outside) : root_(std::move(root)), outside_(outside) {}
+  UrdfReader(XmlElement root, OutsideFiles outside, Coordinates coordinates) : root_(std::move(root)), outside_(outside)
+  {
+    robot_.coordinates = coordinates;
+  }
   Scene read();
 
 private:
@@ -176,7 +179,8 @@ void UrdfReader::add_mimics()
     if (!mimic) continue;
     const std::string followed = mimic->needed_text("joint");
     if (!joints_.count(followed)) mimic->fail(fmt::format("joint \"{}\" does not exist in this file", followed));
-    robot_.couplings.push_back({mimic->line, name, followed, "<mimic>"});
+    robot_.couplings.push_back(
+        {mimic->line, name, followed, "<mimic>", mimic->number_or("multiplier", 1), mimic->number_or("offset", 0)});
   }
 }
 
@@ -200,14 +204,14 @@ Scene UrdfReader::read()
 
 } // namespace
 
-Scene parse_scene_urdf(const std::string &text, const std::string &path, OutsideFiles outside)
+Scene parse_scene_urdf(const std::string &text, const std::string &path, OutsideFiles outside, Coordinates coordinates)
 {
-  return UrdfReader(parse_xml(text, path), outside).read();
+  return UrdfReader(parse_xml(text, path), outside, coordinates).read();
 }
 
-Scene read_scene_urdf(const std::string &path, OutsideFiles outside)
+Scene read_scene_urdf(const std::string &path, OutsideFiles outside, Coordinates coordinates)
 {
-  return parse_scene_urdf(read_file(path), path, outside);
+  return parse_scene_urdf(read_file(path), path, outside, coordinates);
 }
 
 } // namespace tandem

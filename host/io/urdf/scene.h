@@ -13,7 +13,9 @@ namespace tandem {
 
 /* Gravity is 9.81 m/s^2 along -Z, because URDF does not specify it and its robots stand along Z. Throws InputError, one
  * line: `file: line 12: <element name="...">: what`. */
-Scene read_scene_urdf(const std::string &path, OutsideFiles outside = OutsideFiles::refused);
-Scene parse_scene_urdf(const std::string &text, const std::string &path, OutsideFiles outside = OutsideFiles::refused);
+Scene read_scene_urdf(const std::string &path, OutsideFiles outside = OutsideFiles::refused,
+                      Coordinates coordinates = Coordinates::maximal);
+Scene parse_scene_urdf(const std::string &text, const std::string &path, OutsideFiles outside = OutsideFiles::refused,
+                       Coordinates coordinates = Coordinates::maximal);
 
 } // namespace tandem

@@ -137,14 +137,18 @@ TEST_CASE("joints that hold links stand behind all others, and no two of a colou
     const uint32_t a = random.below(40), b = random.below(42);
     if (a != b) join(scene, a, b, JointType::ball);
   }
+  const size_t holding = scene.joints.size();
+  join(scene, 1, 20, JointType::six_dof); /* holds nothing: it needs no colour beside a link, and has one elsewhere */
+  join(scene, 20, 21, JointType::six_dof);
   const JointGraph graph = joint_graph_of(scene);
   const auto tree_of = [](uint32_t body) { return body < 16 ? 100 + body / 4 : body; };
   const auto holds_link = [&](uint32_t joint) {
     return scene.joints[joint].body_a < 16 || scene.joints[joint].body_b < 16;
   };
   const uint32_t first = graph.starts[COLOR_ENTRIES - 1], end = graph.starts.back();
-  CHECK(graph.in_trees.size() == 12);
-  CHECK(end + 12 == scene.joints.size());
+  CHECK(graph.without_rows.size() == 13);
+  CHECK(graph.without_rows.back() == holding);
+  CHECK(end + 13 == scene.joints.size());
   CHECK(graph.link_colors > 1);
   for (uint32_t i = 0; i < end; ++i) CHECK(holds_link(graph.order[i]) == (i >= first));
   for (uint32_t color = 0; color < COLOR_LIMIT; ++color) {

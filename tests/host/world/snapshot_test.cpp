@@ -340,9 +340,9 @@ TEST_CASE("messages about snapshots say what is wrong", "[sanitizer]")
   other[0] = std::byte{'P'};
   CHECK(message_of(other) == "snapshot: it is no snapshot of Tandem, which begins with 'TANDEMS'");
   other = snapshot;
-  other[8] = std::byte{9};
+  other[8] = std::byte{10};
   CHECK_THAT(message_of(other),
-             ContainsSubstring("snapshot: the snapshot has format 9; Tandem ") && ContainsSubstring("reads format 8"));
+             ContainsSubstring("snapshot: the snapshot has format 10; Tandem ") && ContainsSubstring("reads format 9"));
   other = snapshot;
   other[100] ^= std::byte{1};
   CHECK_THAT(message_of(other), ContainsSubstring("do not have the hash of its header; it is damaged"));

@@ -192,8 +192,11 @@ TEST_CASE("urdf: what a scene does not have is listed by name, with its line and
   CHECK(has_note(scene, "<safety_controller> of <joint> is not held (line 2)"));
   CHECK(has_note(scene, "<transmission> of <robot> is not held"));
   CHECK(has_note(scene, "<gazebo> of <robot> is not held"));
-  CHECK(has_note(scene, "<mimic>: joint \"b\" does not follow joint \"a\""));
-  CHECK(scene.notes.size() == 5);
+  CHECK(scene.notes.size() == 4);
+  REQUIRE(scene.couplings.size() == 1);
+  CHECK(scene.couplings[0].joint_a == 1);
+  CHECK(scene.couplings[0].joint_b == 0);
+  CHECK((scene.couplings[0].ratio == -1.0f && scene.couplings[0].offset == 0.0f));
 }
 
 TEST_CASE("urdf: what was read is written as JSON and read again without loss")
