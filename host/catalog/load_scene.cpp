@@ -40,7 +40,7 @@ Scene load_scene(const std::string &spec_or_path, OutsideFiles outside, Coordina
   if (extension == ".urdf") return read_scene_urdf(spec_or_path, outside, coordinates);
   if (extension == ".xml" || extension == ".mjcf") return read_scene_mjcf(spec_or_path, outside, coordinates);
   Scene scene = load_in_maximal_coordinates(spec_or_path, extension, outside);
-  if (coordinates == Coordinates::reduced) make_articulations(scene);
+  if (coordinates == Coordinates::reduced) make_articulations(scene, spec_or_path);
   return scene;
 }
 

@@ -50,8 +50,9 @@ private:
 
 class Forest {
 public:
-  Forest(Scene &scene, std::span<const float> armatures)
-      : scene_(scene), armatures_(armatures), is_barred_(scene.bodies.size()), groups_(scene.bodies.size())
+  Forest(Scene &scene, const std::string &where, std::span<const float> armatures)
+      : scene_(scene), where_(where), armatures_(armatures), is_barred_(scene.bodies.size()),
+        groups_(scene.bodies.size())
   {
     for (const Coupling &coupling : scene.couplings)
       for (const uint32_t joint : {coupling.joint_a, coupling.joint_b}) bar(scene.joints[joint]);
@@ -92,16 +93,16 @@ private:
     const Joint &joint = scene_.joints[index];
     try {
       if (is_barred(joint.body_a) || is_barred(joint.body_b))
-        refuse(scene_.name, label("joint", index, joint.name),
+        refuse(where_, label("joint", index, joint.name),
                "holds a body of a joint that is coupled or bounces; such bodies are no links");
       Articulation alone;
       alone.joints = {index};
-      check_articulation(scene_, alone, scene_.name);
+      check_articulation(scene_, alone, where_);
     } catch (const InputError &error) {
       return leave(error.what());
     }
     if (connect(joint)) taken_.push_back(index);
-    else leave(fmt::format("{}: {}: closes a loop", printable(scene_.name), label("joint", index, joint.name)));
+    else leave(fmt::format("{}: {}: closes a loop", printable(where_), label("joint", index, joint.name)));
   }
   void leave(const std::string &why)
   {
@@ -124,6 +125,7 @@ private:
   }
 
   Scene &scene_;
+  const std::string &where_;
   std::span<const float> armatures_;
   std::vector<bool> is_barred_;
   Groups groups_;
@@ -135,15 +137,22 @@ private:
 
 } // namespace
 
-void make_articulations(Scene &scene, std::span<const float> armatures)
+void make_articulations(Scene &scene, const std::string &where, std::span<const float> armatures)
 {
   if (!scene.articulations.empty()) return;
   if (!armatures.empty() && armatures.size() != scene.joints.size())
-    throw InputError(fmt::format("{}: {} armatures for {} joints; give one for each joint, or none",
-                                 printable(scene.name), armatures.size(), scene.joints.size()));
-  validate(scene, scene.name);
-  Forest(scene, armatures).grow();
-  validate(scene, scene.name);
+    throw InputError(fmt::format("{}: {} armatures for {} joints; give one for each joint, or none", printable(where),
+                                 armatures.size(), scene.joints.size()));
+  validate(scene, where);
+  const size_t notes = scene.notes.size();
+  Forest(scene, where, armatures).grow();
+  try {
+    validate(scene, where);
+  } catch (...) {
+    scene.articulations.clear();
+    scene.notes.resize(notes);
+    throw;
+  }
 }
 
 } // namespace tandem

@@ -191,10 +191,15 @@ SHARED void settle_link(const articulation *t, tree_link l)
   store_root(l.exists & l.is_free, t, (uint)ROOT_LINEAR_VELOCITY, extend(add(xyz(linear), m.linear), linear.w));
 }
 
-SHARED void settle_tree(const articulation *t)
+SHARED void settle_tree_if(mask wanted, const articulation *t)
 {
-  for (uint k = 0; k < t->most_links; ++k) settle_link(t, tree_link_of(t, k));
+  for (uint k = 0; k < t->most_links; ++k) {
+    tree_link l = tree_link_of(t, k);
+    l.exists = l.exists & wanted;
+    settle_link(t, l);
+  }
 }
+SHARED void settle_tree(const articulation *t) { settle_tree_if(has_links(t), t); }
 
 /* Takes the impulses on all links, WORK_FORCE, and those of all joints, WORK_PENDING (of a ball in axes of the world,
  * of a free root none), to what is pending. The settled tree has then the velocities after these impulses. */

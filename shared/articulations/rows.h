@@ -30,11 +30,12 @@ SHARED mask has_rows(tree_link l, joint_axis a)
   return l.exists & has_one_freedom(l) & (limited | driven);
 }
 
-/* is_pending: whether the rows of any lane have pushed. */
-SHARED axis_row row_of_link(const articulation *t, tree_link l, uint is_pending)
+/* is_pending: whether rows have pushed the tree. */
+SHARED axis_row row_of_link(const articulation *t, tree_link l, mask is_pending)
 {
   vec3 change = zero3();
-  if (is_pending) pending_change(t, choose(l.exists, l.k, t->links), &change);
+  mask walks = l.exists & is_pending;
+  if (any_of(walks)) pending_change(t, choose(walks, l.k, t->links), &change);
   axis_row r;
   r.at.value = load_state(t, l.k, (uint)STATE_JOINT_POSITION).x;
   r.at.direction = r.at.turn = r.moment_a = r.moment_b = zero3();
@@ -45,30 +46,29 @@ SHARED axis_row row_of_link(const articulation *t, tree_link l, uint is_pending)
 }
 
 /* Whether rows have pushed now. */
-SHARED uint solve_rows_of_link(GLOBAL const Parameters *parameters, const articulation *t, tree_link l,
-                               const joint_axis *axis, uint pass, uint is_pending)
+SHARED mask solve_rows_of_link(GLOBAL const Parameters *parameters, const articulation *t, tree_link l,
+                               const joint_axis *axis, uint pass, mask is_pending)
 {
   axis_row r = row_of_link(t, l, is_pending);
   vec4 kept = load_state(t, l.k, (uint)STATE_ROW_IMPULSE);
   real sum = solve_rows_of_axis(parameters, &r, axis, &kept, pass);
   store_state(l.exists, t, l.k, (uint)STATE_ROW_IMPULSE, kept);
   mask pushes = l.exists & (sum != R(0.0));
-  if (!any_of(pushes)) return is_pending;
-  push_link_if(pushes, t, l.k, no_force(), make_vec3(sum, R(0.0), R(0.0)));
-  return 1u;
+  if (any_of(pushes)) push_link_if(pushes, t, l.k, no_force(), make_vec3(sum, R(0.0), R(0.0)));
+  return is_pending | pushes;
 }
 
 /* One pass over a settled tree, which it leaves settled. */
 SHARED void solve_tree_rows(GLOBAL const Parameters *parameters, const articulation *t, uint pass)
 {
-  uint is_pending = 0u;
+  mask has_tree = has_links(t), is_pending = has_tree & !has_tree;
   for (uint k = 0; k < t->most_links; ++k) {
     tree_link l = tree_link_of(t, k);
     joint_axis axis = axis_of_rows(t, l);
     l.exists = has_rows(l, axis);
     if (any_of(l.exists)) is_pending = solve_rows_of_link(parameters, t, l, &axis, pass, is_pending);
   }
-  if (is_pending) settle_tree(t);
+  if (any_of(is_pending)) settle_tree_if(is_pending, t);
 }
 
 #endif

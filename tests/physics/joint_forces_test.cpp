@@ -17,7 +17,7 @@ struct Actuated {
     add_body(scene, BodyType::dynamic, box_shape(0.5f, 0.5f, 0.5f), {0, 0, 0}).mass = 3;
     Joint &joint = connect(scene, type, no_body, 0, Vector::Zero(), Vector::UnitY());
     (type == JointType::slider ? joint.directions : joint.rotations)[0] = axis;
-    if (reduced) make_articulations(scene, std::vector<float>{armature});
+    if (reduced) make_articulations(scene, "test", std::vector<float>{armature});
     REQUIRE(scene.articulations.size() == (reduced ? 1 : 0));
   }
   double inertia() const { return scene.joints[0].type == JointType::slider ? 3.0 : 0.5; } /* m a^2 / 6 */
@@ -97,7 +97,7 @@ TEST_CASE("the force of an axis changes while the world runs, and the torque of 
   for (int k = 0; k < 2; ++k)
     add_body(scene, BodyType::dynamic, box_shape(0.2f, 0.3f, 0.4f), {0, 0, 0}).mass = float(1 + k);
   connect(scene, JointType::hinge, 0, 1, Vector::Zero(), Vector::UnitY()).rotations[0].force = 1;
-  if (reduced) make_articulations(scene);
+  if (reduced) make_articulations(scene, "test");
   World world(scene);
   run(world, 20);
   const Momentum moving = momentum_of(world);

@@ -81,9 +81,9 @@ private:
 
 /* Makes articulations of the joints of a scene, if it has none: each tree of joints that a tree can have
  * (articulation.h), in the order of the joints. A joint that closes a loop of those before it, and one that no tree can
- * have, stays as it is; Scene::notes says how many do, and why the first of them does. armatures: of each joint of the
- * scene, as Articulation::armatures; or none. Throws InputError if the scene is not valid, before or with
- * articulations. */
-TANDEM_API void make_articulations(Scene &scene, std::span<const float> armatures = {});
+ * have, stays as it is; Scene::notes says how many do, and why the first of them does. where: prefixes messages.
+ * armatures: of each joint of the scene, as Articulation::armatures; or none. Throws InputError if the scene is not
+ * valid before or with articulations, and leaves it as it was. */
+TANDEM_API void make_articulations(Scene &scene, const std::string &where, std::span<const float> armatures = {});
 
 } // namespace tandem

@@ -1,6 +1,7 @@
 /* robot.cpp - from a tree of links to bodies and joints; see links.h. */
 #include <algorithm>
 #include <map>
+#include <numbers>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -17,8 +18,9 @@ namespace {
 /* Of a body that stands between two joints of a link, in the link's mass. Trees hold any mass; this one keeps them
  * finite where the axes of three hinges lie in one plane. */
 constexpr double share_of_mass = 0.1, share_in_tree = 0.001;
-constexpr size_t most_of_frame = 6; /* the axes of one frame */
-constexpr size_t most_parts = 6;    /* joints of a link, each with the axes of a frame */
+constexpr size_t most_of_frame = 6;   /* the axes of one frame */
+constexpr double least_factor = 1e-6; /* of couplings, as validate() has it; 1 over it is the largest */
+constexpr size_t most_parts = 6;      /* joints of a link, each with the axes of a frame */
 
 /* Links that move as one. The first of them has the joints. */
 struct LinkGroup {
@@ -60,6 +62,11 @@ private:
   {
     throw InputError(printable(fmt::format("{}: line {}: link \"{}\": {}", robot_.file, link.line, link.name, why)));
   }
+  [[noreturn]] void refuse(const JointCoupling &coupling, const std::string &why) const
+  {
+    throw InputError(printable(fmt::format("{}: line {}: {}: joint \"{}\" {}", robot_.file, coupling.line,
+                                           coupling.what, coupling.joint, why)));
+  }
   const Link &base_of(const LinkGroup &group) const { return robot_.links[group.base]; }
   uint32_t body_of(size_t group) const { return group == Link::world ? no_body : groups_[group].body; }
   void place_links();
@@ -79,7 +86,9 @@ private:
   void note_grouping(const LinkGroup &group, const GroupedJoint &grouped, std::span<const LinkJoint> joints);
   void set_frame(uint32_t body, const RigidFrame &at, Point &position, Quat &orientation) const;
   void add_connections();
-  void hold(const PlacedAxis &place, double value);
+  void check_coupling(const JointCoupling &coupling) const;
+  void hold(const PlacedAxis &place, const JointCoupling &coupling);
+  void leave_out_rolling();
   void couple(const JointCoupling &coupling);
   void note_armatures(const LinkGroup &group);
   bool is_tree() const { return robot_.coordinates == Coordinates::reduced; }
@@ -343,6 +352,9 @@ std::vector<JointsOfFrame> RobotBuilder::parts_of(const LinkGroup &group)
       }
   if (!is_tree() && parts.size() > most_parts)
     refuse(base_of(group), "has more than six joints whose axes are not at right angles");
+  if (parts.size() > most_parts * most_of_frame)
+    refuse(base_of(group),
+           fmt::format("has {} joints; at most {} are possible", parts.size(), most_parts * most_of_frame));
   return parts;
 }
 
@@ -393,19 +405,49 @@ void RobotBuilder::add_connections()
   }
 }
 
-/* Limits at one value hold an axis there. */
-void RobotBuilder::hold(const PlacedAxis &place, double value)
+void RobotBuilder::check_coupling(const JointCoupling &coupling) const
 {
+  const double size = std::abs(coupling.factor);
+  if (coupling.joint == coupling.followed) refuse(coupling, "follows itself; name another joint");
+  if (size != 0 && !(size >= least_factor && size <= 1 / least_factor))
+    refuse(coupling, fmt::format("follows by a factor of {:g}; 0, or a size from {:g} to {:g} is needed",
+                                 coupling.factor, least_factor, 1 / least_factor));
+  const auto joint = axis_of_.find(coupling.joint);
+  const bool turns = joint != axis_of_.end() && joint->second.axis.axis >= 3;
+  const double farthest_angle = std::numbers::pi * (1 + size), most = turns ? farthest_angle : double{longest_length};
+  if (!(std::abs(coupling.offset) <= most))
+    refuse(coupling, fmt::format("has an offset of {:g}; at most {:g} is possible", coupling.offset, most));
+}
+
+/* Contacts of links have neither. */
+void RobotBuilder::leave_out_rolling()
+{
+  for (Material &material : scene_.materials) {
+    if (material.rolling_friction == 0 && material.spinning_friction == 0) continue;
+    material.rolling_friction = material.spinning_friction = 0;
+    notes_.add(robot_.links.front().line, "rolling and spinning friction are of maximal coordinates alone");
+  }
+}
+
+/* Limits at one value hold an axis there. */
+void RobotBuilder::hold(const PlacedAxis &place, const JointCoupling &coupling)
+{
+  const double value = coupling.offset;
   Joint &joint = scene_.joints[place.joint];
   JointAxis &axis = place.axis.axis < 3 ? joint.directions[place.axis.axis] : joint.rotations[place.axis.axis - 3];
-  axis.lower = axis.upper = round_to_float(place.axis.reversed ? -value : value);
+  const float held = round_to_float(place.axis.reversed ? -value : value);
+  if (held < axis.lower || held > axis.upper)
+    notes_.add(coupling.line,
+               fmt::format("{}: joint \"{}\" is held outside of its limits", coupling.what, coupling.joint));
+  axis.lower = axis.upper = held;
 }
 
 /* q = offset + factor q_followed; each coordinate is that of the scene's joint, or its opposite. */
 void RobotBuilder::couple(const JointCoupling &coupling)
 {
+  check_coupling(coupling);
   const auto joint = axis_of_.find(coupling.joint), followed = axis_of_.find(coupling.followed);
-  if (coupling.factor == 0 && joint != axis_of_.end()) return hold(joint->second, coupling.offset);
+  if (coupling.factor == 0 && joint != axis_of_.end()) return hold(joint->second, coupling);
   if (is_tree() || joint == axis_of_.end() || followed == axis_of_.end())
     return notes_.add(coupling.line,
                       fmt::format("{}: joint \"{}\" does not follow joint \"{}\"{}", coupling.what, coupling.joint,
@@ -437,8 +479,10 @@ void RobotBuilder::build()
     if (!group.gone) add_joints(group);
   add_connections();
   for (const JointCoupling &coupling : robot_.couplings) couple(coupling);
+  if (!is_tree()) return;
+  leave_out_rolling();
   armatures_.resize(scene_.joints.size());
-  if (is_tree()) make_articulations(scene_, armatures_);
+  make_articulations(scene_, robot_.file, armatures_);
 }
 
 } // namespace

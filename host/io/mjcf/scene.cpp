@@ -185,7 +185,7 @@ Scene MjcfReader::read()
   note_rest();
   robot_.links = bodies_.links;
   add_robot(robot_, notes_, scene_);
-  scene_.notes = notes_.lines(*root_.file);
+  for (const std::string &line : notes_.lines(*root_.file)) scene_.notes.push_back(line);
   if (scene_.bodies.empty()) root_.fail("no body and no geom; there is nothing to simulate");
   validate(scene_, *root_.file);
   return std::move(scene_);

@@ -196,7 +196,7 @@ Scene UrdfReader::read()
   add_links();
   add_mimics();
   add_robot(robot_, notes_, scene_);
-  scene_.notes = notes_.lines(*root_.file);
+  for (const std::string &line : notes_.lines(*root_.file)) scene_.notes.push_back(line);
   if (scene_.bodies.empty()) root_.fail("no link has a mass or a collision shape; there is nothing to simulate");
   validate(scene_, *root_.file);
   return std::move(scene_);

@@ -76,7 +76,7 @@ TEST_CASE("the trees of a scene hold together what its joints do, and none of th
     }
     std::vector<uint32_t> all(scene.joints.size()), used;
     for (uint32_t k = 0; k < all.size(); ++k) all[k] = k;
-    make_articulations(scene);
+    make_articulations(scene, "test");
     for (const Articulation &tree : scene.articulations)
       used.insert(used.end(), tree.joints.begin(), tree.joints.end());
     const size_t nodes = size_t(bodies) - 2 + 1;
@@ -97,12 +97,11 @@ TEST_CASE("joints that a tree cannot have stay as they are, and a note says whic
   join(scene, 3, 4).enabled = false;
   join(scene, 4, 5, JointType::hinge);
   scene.joints[4].rotations[0] = {.lower = -1, .upper = 1, .restitution = 0.5f};
-  scene.name = "mixed";
-  make_articulations(scene);
+  make_articulations(scene, "test");
   REQUIRE(scene.articulations.size() == 1);
   CHECK(scene.articulations[0].joints == std::vector<uint32_t>{0});
   REQUIRE(scene.notes.size() == 1);
-  CHECK(scene.notes[0].starts_with("joints in maximal coordinates beside the articulations: 3, the first: mixed: "));
+  CHECK(scene.notes[0].starts_with("joints in maximal coordinates beside the articulations: 3, the first: test: "));
   CHECK(scene.notes[0].find("joint 1 has another type") != std::string::npos);
 }
 
@@ -118,7 +117,7 @@ TEST_CASE("bodies that coupled joints hold are no links")
   gear.joint_a = 0;
   gear.joint_b = 1;
   scene.couplings = {gear};
-  make_articulations(scene);
+  make_articulations(scene, "test");
   REQUIRE(scene.articulations.size() == 1);
   CHECK(scene.articulations[0].joints == std::vector<uint32_t>{3});
 }
@@ -130,11 +129,20 @@ TEST_CASE("armatures follow their joints into the trees, and a wrong number of t
   join(scene, 0, 1, JointType::hinge);
   join(scene, no_body, 0, JointType::hinge);
   Scene other = scene;
-  make_articulations(scene, std::vector<float>{1, 2, 3});
+  make_articulations(scene, "test", std::vector<float>{1, 2, 3});
   REQUIRE(scene.articulations.size() == 2);
   CHECK(scene.articulations[0].armatures == std::vector<float>{1});
   CHECK(scene.articulations[1].joints == std::vector<uint32_t>{1, 2});
   CHECK(scene.articulations[1].armatures == std::vector<float>{2, 3});
-  CHECK_THROWS_WITH(make_articulations(other, std::vector<float>{1}),
+  CHECK_THROWS_WITH(make_articulations(other, "test", std::vector<float>{1}),
                     Catch::Matchers::ContainsSubstring("1 armatures for 3 joints"));
+}
+
+TEST_CASE("a scene that cannot have articulations stays as it was")
+{
+  Scene scene = scene_of_balls(2, 0);
+  join(scene, 0, 1, JointType::hinge);
+  scene.materials.emplace_back().rolling_friction = 0.1f;
+  CHECK_THROWS_WITH(make_articulations(scene, "test"), Catch::Matchers::StartsWith("test: material "));
+  CHECK(scene.articulations.empty());
 }

@@ -80,6 +80,7 @@ TEST_CASE("urdf, strictly: trees of links", "[address]")
                 urdf_joint("l", "fixed", "b", "a"),
             "is in a loop of joints"},
            {joint_with("continuous", "<mimic joint=\"gone\"/>"), "joint \"gone\" does not exist"},
+           {joint_with("continuous", "<mimic joint=\"j\"/>"), "joint \"j\" follows itself"},
            {urdf_link("world", ""), "there is nothing to simulate"}}) {
     CAPTURE(inside);
     check_one_line(urdf_complaint(inside), urdf_path + ": line 1: ", mentions);
@@ -204,6 +205,12 @@ TEST_CASE("mjcf, strictly: joints, actuators, equalities and exclusions", "[addr
            {hinge("") + "<equality><weld body1=\"gone\"/></equality>", "body \"gone\" does not exist"},
            {hinge("") + "<equality><connect body1=\"world\"/></equality>", "anchor is missing"},
            {hinge("") + "<equality><joint joint1=\"gone\" joint2=\"j\"/></equality>", "joint \"gone\" does not exist"},
+           {hinge("") + "<equality><joint joint1=\"j\" polycoef=\"4\"/></equality>",
+            "has an offset of 4; at most 3.14"},
+           {hinge("armature=\"-1\""), "armature is -1"},
+           {hinge("/><joint name=\"k\" axis=\"1 0 0\"") +
+                "<equality><joint joint1=\"j\" joint2=\"k\" polycoef=\"0 1e9\"/></equality>",
+            "follows by a factor of 1e+09"},
            {hinge("") + "<contact><exclude body1=\"gone\" body2=\"world\"/></contact>",
             "body \"gone\" does not exist"}}) {
     CAPTURE(inside);
