@@ -570,7 +570,7 @@ TEST_CASE("every field of a body, a material and the settings is in a snapshot",
                     19};
   CHECK(equal_fields(settings, Settings{}) == 0);
   CHECK(all_equal(copied(settings), settings));
-  const JointAxis axis{1, 2, 3, 4, 5, 6, 7, 8, 9, true, 10, 11, 12};
+  const JointAxis axis{1, 2, 3, 4, 5, 6, 7, 8, 9, true, 10, 11, 12, 13};
   CHECK(equal_fields(axis, JointAxis{}) == 0);
   CHECK(all_equal(copied(axis), axis));
   const Joint joint{"knee",
