@@ -177,7 +177,7 @@ TEST_CASE("mjcf: one joint that follows another is coupled with it, whichever wa
   CHECK(has_note(scene, "polycoef beyond its second number is not held"));
 }
 
-TEST_CASE("mjcf: in reduced coordinates one joint does not follow another, which is listed; one that is held is")
+TEST_CASE("mjcf: in reduced coordinates one joint does not follow another, which is listed, and a joint is held")
 {
   const Scene scene = parse_scene_mjcf(R"(<mujoco><worldbody><body><joint name="p"/><geom size="1"/></body>
     <body><joint name="q"/><geom size="1"/></body></worldbody><equality><joint joint1="p" joint2="q"/>
