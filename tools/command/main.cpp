@@ -30,12 +30,21 @@
 namespace tandem {
 namespace {
 
+/* One thread prints the error: the command, which has told a status then, or one that fails. */
+std::atomic_flag line_is_taken = ATOMIC_FLAG_INIT;
+thread_local bool line_is_mine = false;
+std::atomic<int> told_status = 0;
+
 /* Scripts read one line for each error, so line ends in a library's message are replaced. */
 int complain(std::string message, int status)
 {
+  while (!line_is_mine && line_is_taken.test_and_set()) ::pause(); /* a thread is printing and will end the process */
+  line_is_mine = true;
   std::replace(message.begin(), message.end(), '\n', ' ');
   while (!message.empty() && message.back() == ' ') message.pop_back();
   std::fputs(fmt::format("tandem: {}\n", printable(message)).c_str(), stderr);
+  if (status > 0) told_status = status;
+  else line_is_mine = false, line_is_taken.clear();
   return status;
 }
 
@@ -103,8 +112,13 @@ std::terminate_handler usual_end = nullptr;
 
 template <class... Values> [[noreturn]] void end_with_line(const char *format, Values... values) noexcept
 {
-  static std::atomic_flag said = ATOMIC_FLAG_INIT;
-  while (said.test_and_set()) ::pause(); /* another thread is printing and will end the process */
+  while (!line_is_mine && line_is_taken.test_and_set()) {
+    if (told_status > 0) {
+      remove_unfinished_files();
+      _exit(told_status);
+    }
+    ::usleep(1000); /* another thread is printing */
+  }
   char line[1024];
   const int length = std::snprintf(line, sizeof line - 1, format, values...);
   const size_t size = std::min(static_cast<size_t>(std::max(length, 0)), sizeof line - 2);
