@@ -88,15 +88,15 @@ public:
     if (holds_link(links_, joint)) return first_of_links + at_trees_.take(joint);
     return at_bodies_.take(joint);
   }
-  bool is_without_rows(size_t number) const
-  {
-    const Joint &joint = scene_.joints[number];
-    if (articulated_[number]) return !has_rows_besides_tree(joint);
-    return joint.enabled && holds_link(links_, joint) && holds_nothing(joint);
-  }
   std::vector<uint32_t> words() const { return at_bodies_.words(); }
 
 private:
+  bool is_without_rows(size_t number) const
+  {
+    const Joint &joint = scene_.joints[number];
+    return articulated_[number] ? !has_rows_besides_tree(joint) : holds_link(links_, joint) && holds_nothing(joint);
+  }
+
   const Scene &scene_;
   JointedLinks links_;
   std::vector<bool> articulated_;
@@ -113,8 +113,10 @@ JointGraph joint_graph_of(const Scene &scene, uint32_t worlds)
   graph.starts.assign(behind_all + 1, 0);
   for (size_t k = 0; k < scene.joints.size(); ++k) {
     const uint32_t color = colors.emplace_back(given.take(k));
-    if (given.is_without_rows(k)) graph.without_rows.push_back(static_cast<uint32_t>(k));
-    if (color == behind_all) continue;
+    if (color == behind_all) {
+      if (scene.joints[k].enabled) graph.without_rows.push_back(static_cast<uint32_t>(k));
+      continue;
+    }
     ++graph.starts[color + 1];
     if (color < first_of_links) graph.colors = std::max(graph.colors, color + 1);
     else graph.link_colors = std::max(graph.link_colors, color - first_of_links + 1);
