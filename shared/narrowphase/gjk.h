@@ -28,6 +28,7 @@
 #ifndef TANDEM_SHARED_NARROWPHASE_GJK_H
 #define TANDEM_SHARED_NARROWPHASE_GJK_H
 
+#include "shared/narrowphase/closest_segments.h"
 #include "shared/narrowphase/convex.h"
 
 #define GJK_ROUNDS 48
@@ -295,12 +296,28 @@ SHARED mask walk_round(const convex *a, const convex *b, gap_wanted wanted, int 
          (verdict == SIMPLEX_IS_SLIVER && restart_walk(walk, s, &result->contact, round, size));
 }
 
+/* The closest points of two segments; false if these are too near each other for a normal between them, or if rounding
+ * has moved them along nearly parallel segments. */
+SHARED mask closest_points_of_segments(const convex *a, const convex *b, gjk_result *result)
+{
+  segment_points p = closest_of_segments(a->center, half_segment(a), b->center, half_segment(b));
+  vec3 between = subtract(p.on_b, p.on_a);
+  real distance = length_of(between), noise = R(8.0) * ROUNDING * (bounding_radius_of(a) + bounding_radius_of(b));
+  if (!(distance > noise)) return 0;
+  result->on_a = p.on_a;
+  result->on_b = p.on_b;
+  result->contact.normal = scale(between, R(1.0) / distance);
+  result->contact.gap = gap_along(a, b, result->contact.normal);
+  return distance - result->contact.gap <= noise;
+}
+
 /* v: a first guess of the direction from b to a. */
 SHARED gjk_result closest_points_from(const convex *a, const convex *b, gap_wanted wanted, vec3 v)
 {
   gjk_result result;
   result.last.count = 0;
   result.overlapping = 0;
+  if (MAY_OCCUR(ROUND) && has_segment(a) && has_segment(b) && closest_points_of_segments(a, b, &result)) return result;
   result.contact.gap = R(-1e30);
   gjk_walk walk = begin_walk(v);
   for (int round = 0; round < GJK_ROUNDS; ++round)
