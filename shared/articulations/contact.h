@@ -25,15 +25,15 @@ typedef struct {
 
 SHARED link_contact load_link_contact(GLOBAL const Parameters *parameters, read_contacts contacts, read_patches patches,
                                       read_turning_bodies bodies, read_links links, write_link_states states,
-                                      GLOBAL const float4 *solver_velocity, item_index i)
+                                      GLOBAL const float4 *solver_velocity, uint pass, item_index i)
 {
   link_contact c;
   c.shape = load_contact(parameters, contacts, solver_velocity, bodies.inertia, i);
   mask links_a = is_link(links.of_body, c.shape.a), links_b = is_link(links.of_body, c.shape.b);
   pushed_side a =
-      pushed_side_of(links_a, links, states, c.shape.a, c.shape.velocity_a, c.shape.inertia_a, c.shape.locks_a);
+      pushed_side_of(links_a, links, states, c.shape.a, c.shape.velocity_a, c.shape.inertia_a, c.shape.locks_a, pass);
   pushed_side b =
-      pushed_side_of(links_b, links, states, c.shape.b, c.shape.velocity_b, c.shape.inertia_b, c.shape.locks_b);
+      pushed_side_of(links_b, links, states, c.shape.b, c.shape.velocity_b, c.shape.inertia_b, c.shape.locks_b, pass);
   c.ends = pushed_pair_of(a, b);
   c.moved = load_delta_pose(bodies.delta, c.shape);
   c.shift = shift_of_contact(c.shape, c.moved.translation);
@@ -94,13 +94,19 @@ typedef struct {
   real mass[4], impulse[4], separation[4];
 } link_normals;
 
+SHARED row_of_pair load_normal_row(const link_contact *c, read_patches patches, point_planes planes, uint k,
+                                   item_index i)
+{
+  vec3 arm_a = load_arm_of_a(patches.points, planes, k, i), arm_b = subtract(arm_a, xyz(c->offset));
+  return row_along(add(arm_a, c->shift.a), add(arm_b, c->shift.b), c->shape.normal);
+}
+
 SHARED link_normals load_link_normals(const link_contact *c, read_patches patches, point_planes planes, vec4 impulses,
                                       item_index i)
 {
   link_normals s;
   for (uint k = 0; k < 4u; ++k) {
-    vec3 arm_a = load_arm_of_a(patches.points, planes, k, i), arm_b = subtract(arm_a, xyz(c->offset));
-    s.row[k] = row_along(add(arm_a, c->shift.a), add(arm_b, c->shift.b), c->shape.normal);
+    s.row[k] = load_normal_row(c, patches, planes, k, i);
     mask used = load_point_mass(patches.points, planes, k, i) > R(0.0);
     s.mass[k] = choose(used, inverse_or_zero(response_of_rows(c, s.row[k], s.row[k])), (real)R(0.0));
     s.impulse[k] = component(impulses, k);
@@ -161,13 +167,13 @@ SHARED vec4 impulses_of_normals(const link_normals *s)
 
 /* --- kernels -------------------------------------------------------------------------------------------------- */
 /* All impulses of the contact. */
-SHARED row_of_pair row_of_impulses(const link_contact *c, const link_normals *s, vec4 friction)
+SHARED row_of_pair row_of_impulses(const link_contact *c, const row_of_pair *normals, vec4 normal, vec4 friction)
 {
   tangents t = tangents_of(c->shape.normal);
   vec3 slide = add(scale(t.first, friction.x), scale(t.second, friction.y));
   row_of_pair r = row_along(add(xyz(c->center_a), c->shift.a), add(xyz(c->center_b), c->shift.b), slide);
   r = add_rows(r, row_about(scale(c->shape.normal, friction.z)));
-  for (uint k = 0; k < 4u; ++k) r = add_rows(r, scaled_row(s->row[k], s->impulse[k]));
+  for (uint k = 0; k < 4u; ++k) r = add_rows(r, scaled_row(normals[k], component(normal, k)));
   return r;
 }
 
@@ -177,10 +183,7 @@ SHARED vec4 solve_link_friction_if(mask rough, link_contact *c, vec4 friction, v
   vec4 solved = solve_link_friction(&slid, friction, (normal.x + normal.y) + (normal.z + normal.w));
   c->ends.a = choose_side(rough, slid.ends.a, c->ends.a);
   c->ends.b = choose_side(rough, slid.ends.b, c->ends.b);
-  mask within = c->ends.is_within;
-  c->ends.is_within = within & rough;
-  push_each_other(&c->ends);
-  c->ends.is_within = within;
+  push_each_other_if(rough, &c->ends);
   return choose4(rough, solved, friction);
 }
 
@@ -217,14 +220,19 @@ SHARED void solve_link_contact(GLOBAL const Parameters *parameters, link_contact
   store_float4(impulses.normal, i, normal);
   keep_highest_impulses(parameters, impulses.restitution, planes.stride, normal, i);
   if (pass != (uint)PASS_RELAXING) return;
-  add_warm_start_of_pair(&c->ends, row_of_impulses(c, &s, friction), parameters->inverse_substep, warm_start_impulse);
+  add_warm_start_of_pair(&c->ends, row_of_impulses(c, s.row, normal, friction), parameters->inverse_substep,
+                         warm_start_impulse);
 }
 
 SHARED void warm_start_link_contact(GLOBAL const Parameters *parameters, link_contact *c, read_patches patches,
-                                    point_planes planes, write_contact_impulses impulses, item_index i)
+                                    point_planes planes, write_contact_impulses impulses,
+                                    GLOBAL float4 *warm_start_impulse, item_index i)
 {
-  link_normals s = load_link_normals(c, patches, planes, load_float4(impulses.normal, i), i);
-  push_row(&c->ends, row_of_impulses(c, &s, load_friction(parameters, impulses.friction, i)), R(1.0));
+  row_of_pair normals[4];
+  for (uint k = 0; k < 4u; ++k) normals[k] = load_normal_row(c, patches, planes, k, i);
+  row_of_pair all =
+      row_of_impulses(c, normals, load_float4(impulses.normal, i), load_friction(parameters, impulses.friction, i));
+  add_warm_start_of_pair(&c->ends, all, parameters->inverse_substep, warm_start_impulse);
 }
 
 /* Contacts of which no point bounces stay as they are. */
@@ -251,9 +259,12 @@ SHARED void solve_link_contacts_item(GLOBAL const Parameters *parameters, read_c
                                      item_index i)
 {
   point_planes planes = planes_of(counts);
-  link_contact c = load_link_contact(parameters, contacts, patches, bodies, links, states, solver_velocity, i);
-  if (pass == (uint)PASS_WARM_STARTING) warm_start_link_contact(parameters, &c, patches, planes, contact_impulses, i);
-  else if (pass == (uint)PASS_BOUNCING) bounce_link_contact(&c, patches, planes, contact_impulses, i);
+  link_contact c = load_link_contact(parameters, contacts, patches, bodies, links, states, solver_velocity, pass, i);
+  if (pass == (uint)PASS_WARM_STARTING) {
+    warm_start_link_contact(parameters, &c, patches, planes, contact_impulses, warm_start_impulse, i);
+    return;
+  }
+  if (pass == (uint)PASS_BOUNCING) bounce_link_contact(&c, patches, planes, contact_impulses, i);
   else solve_link_contact(parameters, &c, patches, planes, contact_impulses, warm_start_impulse, pass, i);
   store_pair(&c.ends, solver_velocity);
 }

@@ -32,10 +32,10 @@ typedef struct {
   symmetric6 inverse_of_ancestor; /* inertia */
 } link_joint;
 
-SHARED pushed_side side_of_joint(read_links links, write_link_states states, joint_side s)
+SHARED pushed_side side_of_joint(read_links links, write_link_states states, joint_side s, uint pass)
 {
   mask in_table = is_link(links.of_body, s.body) & !s.is_world;
-  return pushed_side_of(in_table, links, states, s.body, s.velocity, s.inertia, s.locks);
+  return pushed_side_of(in_table, links, states, s.body, s.velocity, s.inertia, s.locks, pass);
 }
 
 SHARED uint_lanes common_ancestor(mask wanted, const articulation *t, uint_lanes k, uint_lanes other)
@@ -53,13 +53,13 @@ SHARED uint_lanes common_ancestor(mask wanted, const articulation *t, uint_lanes
 
 SHARED link_joint load_link_joint(GLOBAL const Parameters *parameters, read_joints joints, read_turning_bodies bodies,
                                   read_links links, write_link_states states, GLOBAL const float4 *solver_velocity,
-                                  item_index i)
+                                  uint pass, item_index i)
 {
   link_joint j;
   j.shape = load_joint(parameters, joints, bodies, solver_velocity, i);
   j.frames = frames_of(parameters, j.shape, joints, i);
-  pushed_side a = side_of_joint(links, states, j.shape.a);
-  pushed_side b = side_of_joint(links, states, j.shape.b);
+  pushed_side a = side_of_joint(links, states, j.shape.a, pass);
+  pushed_side b = side_of_joint(links, states, j.shape.b, pass);
   j.ends = pushed_pair_of(a, b);
   j.ancestor = (uint_lanes)0u;
   j.inverse_of_ancestor = zero_symmetric6();
@@ -121,9 +121,7 @@ SHARED void push_ends_if(mask wanted, link_joint *j, row_of_pair row, real impul
   push_row(&j->ends, row, impulse);
   j->ends.a = choose_side(wanted, j->ends.a, before.a);
   j->ends.b = choose_side(wanted, j->ends.b, before.b);
-  j->ends.is_within = before.is_within & wanted;
-  push_each_other(&j->ends);
-  j->ends.is_within = before.is_within;
+  push_each_other_if(wanted, &j->ends);
 }
 
 /* --- limits and drives ---------------------------------------------------------------------------------------- */
@@ -280,13 +278,14 @@ SHARED void solve_link_joints_item(GLOBAL const Parameters *parameters, read_joi
                                    write_joint_impulses impulses, GLOBAL float4 *solver_velocity,
                                    GLOBAL float4 *warm_start_impulse, uint pass, item_index i)
 {
-  link_joint j = load_link_joint(parameters, joints, bodies, links, states, solver_velocity, i);
+  link_joint j = load_link_joint(parameters, joints, bodies, links, states, solver_velocity, pass, i);
   if (pass == (uint)PASS_WARM_STARTING) {
     joint_impulses p = load_joint_impulses(parameters, impulses.linear, impulses.angular, i);
-    push_row(&j.ends, row_of_joint_impulses(parameters, &j, axes, impulses, p, i), R(1.0));
-  } else {
-    solve_link_joint(parameters, &j, axes, impulses, warm_start_impulse, pass, i);
+    row_of_pair all = row_of_joint_impulses(parameters, &j, axes, impulses, p, i);
+    add_warm_start_of_pair(&j.ends, all, parameters->inverse_substep, warm_start_impulse);
+    return;
   }
+  solve_link_joint(parameters, &j, axes, impulses, warm_start_impulse, pass, i);
   store_pair(&j.ends, solver_velocity);
 }
 

@@ -58,13 +58,14 @@ SHARED void push_row(pushed_pair *p, row_of_pair r, real impulse)
 }
 
 /* Within one tree each side has what the other one pushed it with. */
-SHARED void push_each_other(pushed_pair *p)
+SHARED void push_each_other_if(mask wanted, pushed_pair *p)
 {
-  if (!any_of(p->is_within)) return;
-  push_into_tree_if(p->is_within, &p->a);
-  push_into_tree_if(p->is_within, &p->b);
-  p->a.velocity = choose_motion(p->is_within, pending_velocity(&p->a.tree, p->a.k), p->a.velocity);
-  p->b.velocity = choose_motion(p->is_within, pending_velocity(&p->b.tree, p->b.k), p->b.velocity);
+  mask moved = wanted & p->is_within & (is_push(p->a.pushed) | is_push(p->b.pushed));
+  if (!any_of(moved)) return;
+  push_into_tree_if(moved, &p->a);
+  push_into_tree_if(moved, &p->b);
+  p->a.velocity = choose_motion(moved, pending_velocity_if(moved, &p->a.tree, p->a.k), p->a.velocity);
+  p->b.velocity = choose_motion(moved, pending_velocity_if(moved, &p->b.tree, p->b.k), p->b.velocity);
 }
 
 /* The velocities and pushes of one side, and those of another. */

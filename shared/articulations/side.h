@@ -8,6 +8,7 @@
 #define TANDEM_SHARED_ARTICULATIONS_SIDE_H
 
 #include "shared/articulations/bodies.h"
+#include "shared/solve/pass.h"
 
 typedef struct {
   uint_lanes body, k;
@@ -19,11 +20,12 @@ typedef struct {
   spatial_force pushed; /* since the velocity was loaded */
 } pushed_side;
 
-/* The motion of a link with what is pending in its tree. */
-SHARED spatial_motion pending_velocity(const articulation *t, uint_lanes k)
+/* The motion of a link with what is pending in its tree; where it is not wanted, without. */
+SHARED spatial_motion pending_velocity_if(mask wanted, const articulation *t, uint_lanes k)
 {
   vec3 of_joint;
-  return add_motions(load_motion(t, k, (uint)WORK_VELOCITY), pending_change(t, k, &of_joint));
+  spatial_motion change = pending_change(t, choose(wanted, k, t->links), &of_joint);
+  return add_motions(load_motion(t, k, (uint)WORK_VELOCITY), change);
 }
 
 /* Kept as inverse_times wants it: `first` takes forces to linear motion. */
@@ -61,7 +63,7 @@ SHARED pushed_side single_body_side(read_links links, write_link_states states, 
  * (respond.h), so both sides of a pair are loaded one after the other, in statements: compilers order the arguments of
  * a call as they like. */
 SHARED pushed_side pushed_side_of(mask in_table, read_links links, write_link_states states, uint_lanes body,
-                                  spatial_velocity record, symmetric3 inertia, real locks)
+                                  spatial_velocity record, symmetric3 inertia, real locks, uint pass)
 {
   pushed_side s = single_body_side(links, states, body, record, inertia, locks);
   if (!any_of(in_table)) return s;
@@ -69,7 +71,8 @@ SHARED pushed_side pushed_side_of(mask in_table, read_links links, write_link_st
   s.is_link = in_table & has_links(&s.tree);
   s.tree.links = choose(s.is_link, s.tree.links, (uint_lanes)0u);
   s.k = choose(s.is_link, load_uint(links.of_body, LINK_WORDS * body + 2u), (uint_lanes)0u);
-  s.velocity = choose_motion(s.is_link, pending_velocity(&s.tree, s.k), s.velocity);
+  if (pass == (uint)PASS_WARM_STARTING) return s; /* adds to what pushes, whatever the velocity */
+  s.velocity = choose_motion(s.is_link, pending_velocity_if(s.is_link, &s.tree, s.k), s.velocity);
   s.inverse = choose_symmetric6(s.is_link, load_symmetric6(&s.tree, s.k), s.inverse);
   return s;
 }
@@ -98,10 +101,12 @@ SHARED void push_side_of_pair(pushed_side *s, spatial_force impulse)
   s->pushed = add_forces(s->pushed, impulse);
 }
 
+SHARED mask is_push(spatial_force f) { return is_nonzero(f.force) | is_nonzero(f.moment); }
+
 /* What a link was pushed with goes through its tree; then its velocity is that of the tree. */
 SHARED void push_into_tree_if(mask wanted, pushed_side *s)
 {
-  mask pushes = wanted & s->is_link & (is_nonzero(s->pushed.force) | is_nonzero(s->pushed.moment));
+  mask pushes = wanted & s->is_link & is_push(s->pushed);
   if (any_of(pushes)) {
     push_link_if(pushes, &s->tree, s->k, s->pushed, zero3());
     note_pushed_if(pushes, &s->tree, R(1.0));
@@ -118,11 +123,12 @@ SHARED void store_side_of_pair(pushed_side *s, GLOBAL float4 *solver_velocity)
   store_velocity_if(moves, solver_velocity, s->body, s->record);
 }
 
-/* Adds to the warm start of the next substep; of a link it is a force. */
+/* Adds to what the next substep starts with; of a link it is a force. */
 SHARED void add_warm_start_of_side(const pushed_side *s, spatial_force impulse, real inverse_substep,
                                    GLOBAL float4 *warm_start_impulse)
 {
   if (any_of(s->is_link)) {
+    note_pushed_if(s->is_link & is_push(impulse), &s->tree, R(1.0));
     vec3 force = add_scaled(xyz(load_state(&s->tree, s->k, (uint)STATE_FORCE)), impulse.force, inverse_substep);
     vec3 moment = add_scaled(xyz(load_state(&s->tree, s->k, (uint)STATE_MOMENT)), impulse.moment, inverse_substep);
     store_state(s->is_link, &s->tree, s->k, (uint)STATE_FORCE, extend(force, R(0.0)));

@@ -49,7 +49,6 @@ void warm_start_with_joints(StepLaunches &step)
   step.for_each_color_with_joints(Kernel::warm_start_joints, Kernel::warm_start);
   step.run_overflow_joints(step.has(FEATURE_WORLDS) ? Kernel::warm_start_overflow_joints_by_world
                                                     : Kernel::warm_start_overflow_joints);
-  step.for_each_link_color(PASS_WARM_STARTING);
   if (!step.has(FEATURE_COUPLINGS)) return;
   step.for_each_coupling_color(Kernel::warm_start_couplings);
   step.run_overflow_couplings(Kernel::warm_start_overflow_couplings);
@@ -59,6 +58,7 @@ void warm_start_with_joints(StepLaunches &step)
  * each substep. */
 void launch_soft_step_substep(StepLaunches &step, MassSplit &overflow, uint32_t substep)
 {
+  if (substep == 0) step.for_each_link_color(PASS_WARM_STARTING); /* to links it is a force */
   step.begin_substep(substep);
   if (substep == 0) warm_start_with_joints(step);
   overflow.warm_start();
