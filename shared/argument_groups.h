@@ -533,6 +533,7 @@ typedef struct {
 #define GROUP_links(BUFFER)                                                                                            \
   BUFFER(link_code, uint, code)                                                                                        \
   BUFFER(link_row, float4, row)                                                                                        \
+  BUFFER(link_range, float4, range)                                                                                    \
   BUFFER(link_body, uint, body)                                                                                        \
   BUFFER(articulation_place, uint, place)                                                                              \
   BUFFER(articulation_ground, float4, ground)                                                                          \

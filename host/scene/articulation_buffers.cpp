@@ -31,13 +31,18 @@ bool is_implicit(const JointAxis &axis)
          axis.max_force == JointAxis::unlimited;
 }
 
-/* The row with the moments and those of the axis, which follow it. */
-std::array<float4, LINK_ROWS - LINK_MOMENTS> axis_rows_of(const Scene &scene, const JointAxis &axis, uint32_t body)
+/* What a program may set of the axis of a joint. */
+struct LinkAxis {
+  std::array<float4, LINK_ROWS - LINK_MOMENTS> link; /* the row with the moments and those that follow it */
+  float4 range;
+};
+
+LinkAxis link_axis_of(const Scene &scene, const JointAxis &axis, uint32_t body)
 {
   const std::array<double, 3> moments = moments_of_link(scene, scene.bodies[body]);
   const auto axis_row = row_of_axis(axis);
-  return {float4_of({moments[0], moments[1], moments[2], is_implicit(axis) ? 1.0 : 0.0}), axis_row[0], axis_row[1],
-          axis_row[2]};
+  return {{float4_of({moments[0], moments[1], moments[2], is_implicit(axis) ? 1.0 : 0.0}), axis_row[1], axis_row[2]},
+          axis_row[0]};
 }
 
 template <class Link> std::vector<TreePlace> places_of(const std::vector<std::vector<Link>> &trees)
@@ -59,6 +64,7 @@ public:
     code_.resize(links);
     body_.resize(links);
     row_.resize(links * LINK_ROWS);
+    range_.resize(links);
   }
 
   /* A tree of which a link is in quarantine has no links for kernels. */
@@ -83,6 +89,7 @@ public:
   {
     uploads.add(Buffer::link_code, std::move(code_));
     uploads.add(Buffer::link_row, std::move(row_));
+    uploads.add(Buffer::link_range, std::move(range_));
     uploads.add(Buffer::link_body, std::move(body_));
     uploads.add(Buffer::articulation_place, std::move(place_));
     uploads.add(Buffer::articulation_ground, std::move(ground_));
@@ -95,8 +102,10 @@ private:
     const LinkRows rows = rows_of_link(scene_, l);
     code_[place.row(1, k, 0)] = rows.code;
     for (size_t row = 0; row < LINK_MOMENTS; ++row) row_[place.row(LINK_ROWS, k, row)] = float4_of(rows.numbers[row]);
-    const auto axis = axis_rows_of(scene_, l.axis, l.link.body);
-    for (size_t row = 0; row < axis.size(); ++row) row_[place.row(LINK_ROWS, k, LINK_MOMENTS + row)] = axis[row];
+    const LinkAxis axis = link_axis_of(scene_, l.axis, l.link.body);
+    for (size_t row = 0; row < axis.link.size(); ++row)
+      row_[place.row(LINK_ROWS, k, LINK_MOMENTS + row)] = axis.link[row];
+    range_[place.row(1, k, 0)] = axis.range;
     if (k > 0) return;
     const auto position = double_float3_of(rows.ground);
     ground_.insert(ground_.end(), position.begin(), position.end());
@@ -106,7 +115,7 @@ private:
   const std::vector<std::vector<OrderedLink>> &trees_;
   std::vector<TreePlace> places_;
   std::vector<uint32_t> code_, body_, place_, body_link_;
-  std::vector<float4> row_, ground_;
+  std::vector<float4> row_, range_, ground_;
 };
 
 void check_joint_at_link(const Joint &joint, size_t index, const std::string &where)
@@ -251,11 +260,13 @@ void stage_link_axes(StagedUploads &uploads, const Scene &scene, std::span<const
 {
   const auto stage = [&](uint32_t joint) {
     if (links.of_joint[joint] == no_link) return;
-    const auto rows = axis_rows_of(scene, axis_of_tree(scene.joints[joint]), links.body_of_joint[joint]);
+    const LinkAxis rows = link_axis_of(scene, axis_of_tree(scene.joints[joint]), links.body_of_joint[joint]);
     const TreePlace &place = links.places[links.of_joint[joint]];
-    for (size_t row = 0; row < rows.size(); ++row)
-      uploads.add_elements(Buffer::link_row, std::vector<float4>{rows[row]},
-                           place.row(LINK_ROWS, links.number_of_joint[joint], LINK_MOMENTS + row));
+    const uint32_t k = links.number_of_joint[joint];
+    for (size_t row = 0; row < rows.link.size(); ++row)
+      uploads.add_elements(Buffer::link_row, std::vector<float4>{rows.link[row]},
+                           place.row(LINK_ROWS, k, LINK_MOMENTS + row));
+    uploads.add_elements(Buffer::link_range, std::vector<float4>{rows.range}, place.row(1, k, 0));
   };
   for (const uint32_t joint : joints) stage(joint);
   if (!joints.empty()) return;

@@ -52,7 +52,7 @@ struct ArticulationTree::Tables {
   std::vector<ArticulationLink> links;
   std::vector<Body> bodies; /* of the links */
   std::vector<uint> code, first;
-  std::vector<float4> constants;
+  std::vector<float4> constants, ranges;
   Triple ground{0, 0, 0}; /* frame a of a root that is held */
   vec3 gravity;
   size_t velocities = 0;
@@ -76,6 +76,7 @@ private:
     velocities += l.link.velocities;
     for (const auto &numbers : rows.numbers) constants.push_back(row(numbers[0], numbers[1], numbers[2], numbers[3]));
     constants.resize(links.size() * LINK_ROWS, row(0, 0, 0, 0));
+    ranges.push_back(row(0, 0, 0, 0));
     if (links.size() == 1) ground = rows.ground;
   }
 
@@ -103,6 +104,7 @@ struct Posed {
     root.resize(ROOT_ROWS);
     t = {tables.code.data(),
          tables.constants.data(),
+         tables.ranges.data(),
          state.data(),
          root.data(),
          work.data(),

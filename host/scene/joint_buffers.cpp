@@ -67,9 +67,8 @@ struct Damper {
 /* A force F is a damper c towards the speed F / c. One that the axis has not is so weak that it brakes nothing. */
 Damper damper_of(const JointAxis &axis)
 {
-  constexpr float fastest = 1e12f;
   if (axis.motor) return {float{DAMPING_OF_MOTOR}, axis.target_velocity};
-  const float damping = moderate(std::max(axis.damping, std::abs(axis.force) / fastest));
+  const float damping = moderate(std::max(axis.damping, std::abs(axis.force) / fastest_damper));
   return {damping, damping > 0 ? axis.target_velocity + axis.force / damping : axis.target_velocity};
 }
 

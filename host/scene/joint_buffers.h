@@ -22,7 +22,9 @@ bool can_be_pushed(const Scene &scene, uint32_t body);
 /* Whether it has a limit with restitution. */
 bool bounces(const Joint &joint);
 
-/* The numbers of an axis as kernels read them: shared/joints/axes.h. */
+/* The highest speed, m/s or rad/s, towards which a damper pulls in place of a force. */
+constexpr float fastest_damper = 1e12f;
+/* The numbers of an axis as kernels read them: shared/joints/axes.h. A force is a damper towards a speed. */
 std::array<float4, 3> row_of_axis(const JointAxis &axis);
 
 Features features_of(const Joint &joint);

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -380,9 +381,10 @@ struct World::Implementation {
   CouplingGraph coupling_graph;
   JointOrder joint_order;
   JointSlots joint_slots;
-  JointedLinks links; /* of articulations, which stay as they are */
+  JointedLinks links;                             /* of articulations, which stay as they are */
   std::vector<JointBreak> joint_breaks;           /* of the last step */
   uint64_t joints_number = 0, joints_numbers = 0; /* the number of the present joints, and of those so far */
+  std::function<void()> before_joints_are_read;   /* of a batch: brings axes of the scene up to date */
   std::shared_ptr<const KeptJoints> kept_joints;  /* the present ones, as states that are kept share them; or null */
   BodySlots slots;
   ShapeSlots shapes;

@@ -53,6 +53,7 @@ void World::Implementation::move_joint_rows(const JointOrder::Moves &moves, bool
 void World::Implementation::tell_articulations()
 {
   if (scene.articulations.empty()) return;
+  if (before_joints_are_read) before_joints_are_read();
   StagedUploads uploads;
   stage_articulations(uploads, scene, index_of_body, plan.bodies, slots.status());
   uploads.write(memory);

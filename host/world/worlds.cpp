@@ -2,6 +2,7 @@
 #include "host/world/worlds.h"
 
 #include <algorithm>
+#include <numeric>
 #include <set>
 
 #include <fmt/format.h>
@@ -95,6 +96,7 @@ Worlds::Implementation::Implementation(std::span<const Scene> scenes, uint32_t c
   world.reset(new World(std::make_unique<World::Implementation>(
       World::Implementation::Beginning{std::move(all), used, std::move(special), BodySlots(count), count, pairs, false},
       placement)));
+  engine().before_joints_are_read = [this] { write_controls(); };
   joints = WorldJoints(engine().scene, engine().joint_graph, engine().coupling_graph, tables.worlds());
   upload_batch();
 }
@@ -140,8 +142,9 @@ WorldPlace Worlds::Implementation::place_of(uint32_t number) const
   return {number * bodies, bodies, steps(number) == 0, joints.of(number)};
 }
 
-Scene Worlds::Implementation::scene(uint32_t number) const
+Scene Worlds::Implementation::scene(uint32_t number)
 {
+  write_controls();
   return tables.scene_of(number, engine().scene, bodies, gravity[number]);
 }
 
@@ -243,7 +246,31 @@ void Worlds::add_forces(std::span<const WorldBody> bodies, std::span<const Force
 
 void Worlds::set_joint_axes(std::span<const WorldJoint> joints, std::span<const JointAxisChange> changes)
 {
+  implementation_->write_controls();
   implementation_->world->set_joint_axes(implementation_->ids_of("set_joint_axes", joints), changes);
+}
+
+void Worlds::choose_controls(std::span<const ControlledAxis> axes)
+{
+  implementation_->write_controls();
+  implementation_->controls = Controls(implementation_->engine(), implementation_->tables, axes);
+}
+
+void Worlds::set_controls(std::span<const float> values)
+{
+  std::vector<uint32_t> all(count());
+  std::iota(all.begin(), all.end(), 0u);
+  set_controls(all, values);
+}
+
+void Worlds::set_controls(std::span<const uint32_t> worlds, std::span<const float> values)
+{
+  for (const uint32_t world : worlds) implementation_->check_world("set_controls", world);
+  const size_t controls = implementation_->controls.count();
+  if (values.size() != worlds.size() * controls)
+    throw InputError(fmt::format("set_controls: {} values for {} worlds of {} controls; one for each is needed",
+                                 values.size(), worlds.size(), controls));
+  implementation_->controls.set(implementation_->engine(), worlds, values);
 }
 
 std::vector<JointReading> Worlds::read_joints(std::span<const WorldJoint> joints)

@@ -12,6 +12,7 @@
 #include "host/world/implementation.h"
 #include "host/world/scene_tables.h"
 #include "host/world/snapshot.h"
+#include "host/world/world_controls.h"
 #include "host/world/world_joints.h"
 #include "host/world/world_rows.h"
 
@@ -32,7 +33,8 @@ struct Worlds::Implementation {
   std::vector<JointId> ids_of(const char *call, std::span<const WorldJoint> given) const;
   WorldPlace place_of(uint32_t number) const;
   uint64_t steps(uint32_t number) const { return engine().statistics.steps - started[number]; }
-  Scene scene(uint32_t number) const;
+  Scene scene(uint32_t number);
+  void write_controls() { controls.write_scene(engine().scene); }
 
   /* --- own gravity and starts: worlds_reset.cpp --- */
   void upload_batch();
@@ -54,7 +56,7 @@ struct Worlds::Implementation {
   struct CachedRange {
     uint32_t begin, end; /* of the cached pairs */
   };
-  void check_loaded(uint32_t number, const SnapshotContents &contents) const;
+  void check_loaded(uint32_t number, const SnapshotContents &contents);
   CachedRange cached_range(uint32_t number);
   uint64_t pairs_with(const CachedRange &old, const SnapshotContents &contents);
   void make_room_for(uint64_t pairs);
@@ -69,6 +71,7 @@ struct Worlds::Implementation {
   Settings settings; /* as they were given */
   SceneTables tables;
   WorldJoints joints;
+  Controls controls;
   uint32_t bodies = 0;           /* of each world */
   std::vector<Vec3> gravity;     /* by world, as all that follows */
   std::vector<uint64_t> started; /* steps of the batch when the world began */

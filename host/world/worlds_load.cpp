@@ -62,7 +62,7 @@ std::vector<std::byte> bytes_of(Settings settings)
 
 } // namespace
 
-void Worlds::Implementation::check_loaded(uint32_t number, const SnapshotContents &contents) const
+void Worlds::Implementation::check_loaded(uint32_t number, const SnapshotContents &contents)
 {
   if (!contents.modules.empty() || !contents.islands.empty() || contents.substeps.automatic)
     throw InputError("load: the snapshot is of a world with modules, sleep or substeps auto, which a batch has not");

@@ -104,8 +104,7 @@ void Worlds::Implementation::take_out_of_quarantine(std::span<const uint32_t> nu
     stage_properties(uploads, all.scene, std::span(&taken.body, 1), index, all.slots.status());
   }
   uploads.write(all.memory);
-  std::erase_if(all.quarantined, begins_anew);
-  all.tell_articulations();
+  if (std::erase_if(all.quarantined, begins_anew) > 0) all.tell_articulations();
 }
 
 namespace {

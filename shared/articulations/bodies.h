@@ -24,6 +24,7 @@ SHARED articulation articulation_at(read_links links, write_link_states states, 
   articulation t;
   t.code = links.code;
   t.link = links.row;
+  t.range = links.range;
   t.state = states.state;
   t.root = states.root;
   t.work = states.work;

@@ -17,8 +17,8 @@
 /* The axis of a joint; kind JOINT_AXIS_X for angles, too: they count on beyond half a turn. */
 SHARED joint_axis load_tree_axis(const articulation *t, tree_link l)
 {
-  vec4 range = load_link(t, l.k, (uint)LINK_AXIS), drive = load_link(t, l.k, (uint)LINK_AXIS + 1u),
-       limit = load_link(t, l.k, (uint)LINK_AXIS + 2u);
+  vec4 range = load_float4(t->range, tree_row(t, 1u, l.k, 0u)), drive = load_link(t, l.k, (uint)LINK_AXIS),
+       limit = load_link(t, l.k, (uint)LINK_AXIS + 1u);
   joint_axis a = {(uint_lanes)(uint)JOINT_AXIS_X,
                   range.x,
                   range.y,
@@ -38,7 +38,7 @@ SHARED joint_axis load_tree_axis(const articulation *t, tree_link l)
 /* implicit: whether the drive is, the fourth number of LINK_MOMENTS. armature: kg m^2, or kg. */
 SHARED real implicit_inertia_of(const articulation *t, tree_link l, real armature, real implicit, real h)
 {
-  vec4 drive = load_link(t, l.k, (uint)LINK_AXIS + 1u);
+  vec4 drive = load_link(t, l.k, (uint)LINK_AXIS);
   return armature + choose(implicit > R(0.0), h * (drive.y + h * drive.x), (real)R(0.0));
 }
 

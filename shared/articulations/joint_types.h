@@ -23,9 +23,10 @@ enum {
   LINK_FRAME_B,             /* position of frame b from the link's centre, in the link's axes; mass */
   LINK_FRAME_B_ORIENTATION, /* in the link's axes */
   LINK_MOMENTS,             /* principal moments; 1 where the drive of the joint is implicit (drives.h), else 0 */
-  LINK_AXIS,                /* three rows of the axis of a joint as in shared/joints/axes.h */
-  LINK_ROWS = LINK_AXIS + 3
+  LINK_AXIS,                /* the drive and the limits of the axis of a joint as in shared/joints/axes.h */
+  LINK_ROWS = LINK_AXIS + 2
 };
+/* The range and the targets of the axis are a row of their own, which a program may write in every step. */
 
 enum {
   STATE_JOINT_POSITION, /* angle or way in x, or a quaternion */

@@ -24,6 +24,7 @@
 typedef struct {
   GLOBAL const uint *code;   /* a word a link: joint_types.h */
   GLOBAL const float4 *link; /* LINK_ROWS a link */
+  GLOBAL const float4 *range; /* a row a link: lower, upper, target, target speed */
   GLOBAL float4 *state;      /* STATE_ROWS a link */
   GLOBAL float4 *root;       /* ROOT_ROWS a tree */
   GLOBAL float4 *work;       /* WORK_ROWS a link */

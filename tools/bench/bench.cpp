@@ -10,6 +10,7 @@
 #include "tools/bench/batching.h"
 #include "tools/bench/bodies.h"
 #include "tools/bench/broadphase.h"
+#include "tools/bench/controls.h"
 #include "tools/bench/floors.h"
 #include "tools/bench/left_out.h"
 #include "tools/bench/narrowphase.h"
@@ -43,6 +44,7 @@ constexpr Benchmark benchmarks[] = {
     {"sleeping", "one island awake among bodies that sleep", execute_sleeping},
     {"bodies", "that come and go, and one that is read", execute_bodies},
     {"worlds", "many small ones in a batch, and one after another", execute_worlds},
+    {"controls", "a batch of robots whose joints are driven at random", execute_controls},
     {"scenes", "what every built-in scene takes: kernels, launches, memory, time", execute_scenes},
     {"left-out", "what a scene saves by each feature that it lacks", execute_left_out},
     {"floors", "bytes that each stage must move, and how long a copy of them takes", execute_floors},
@@ -80,8 +82,9 @@ void check_options(const BenchOptions &options)
   only_of("--broadphase", !options.broadphases.empty(), {"broadphase"});
   only_of("--chart", !options.chart.empty(), {"broadphase", "sizes"});
   only_of("--beside", !options.beside.empty(), {"sizes"});
-  only_of("--scene", !options.scenes.empty(), {"broadphase", "scenes", "left-out", "floors", "starts", "batching"});
-  only_of("--steps", !options.steps.empty(), {"scenes", "left-out", "batching"});
+  only_of("--scene", !options.scenes.empty(),
+          {"broadphase", "scenes", "left-out", "floors", "starts", "batching", "controls"});
+  only_of("--steps", !options.steps.empty(), {"scenes", "left-out", "batching", "controls"});
   only_of("--table-in", !options.table.empty(), {"scenes", "left-out", "floors", "starts"});
   if ((options.what == "floors" || options.what == "starts") && !options.count.empty())
     throw InputError(fmt::format("--n: bench {} takes the size from --scene, as --scene spheres:n=1000; leave it out",
@@ -110,10 +113,11 @@ Command bench_command(CLI::App &parser)
   command->add_option("WHAT", options->what, benchmarks_text())->required()->type_name("");
   command->add_option("--on", options->on, "backend")->type_name("B")->capture_default_str();
   command
-      ->add_option("--n", options->count,
-                   "how many: 1048576 keys, 1000 to 1000000 bodies of broadphase, 1000000 rays, 4096 pairs of each "
-                   "kind, 1000 to 100000 bodies of snapshots and sleeping, 1000 and 10000 of bodies, 1024 and 4096 "
-                   "worlds, 1000 bodies of step, at most 64000 of sizes (0: --beside alone) unless given")
+      ->add_option(
+          "--n", options->count,
+          "how many: 1048576 keys, 1000 to 1000000 bodies of broadphase, 1000000 rays, 4096 pairs of each "
+          "kind, 1000 to 100000 bodies of snapshots and sleeping, 1000 and 10000 of bodies, 1024 and 4096 "
+          "worlds, 1024 of controls, 1000 bodies of step, at most 64000 of sizes (0: --beside alone) unless given")
       ->type_name("N");
   command->add_option("--pairs", options->pairs, "narrowphase: these kinds alone, as box-box,hull32-hull32")
       ->delimiter(',')
@@ -126,14 +130,17 @@ Command bench_command(CLI::App &parser)
   command
       ->add_option("--scene", options->scenes,
                    "broadphase: these inputs alone, as spheres,pile; scenes, left-out: these built-in scenes "
-                   "alone; floors: one scene with its parameters; batching, starts: scenes with their parameters")
+                   "alone; floors: one scene with its parameters; batching, starts, controls: scenes with their "
+                   "parameters, or files")
       ->delimiter(',')
       ->type_name("NAME,...");
   command
-      ->add_option("--steps", options->steps,
-                   fmt::format("scenes, left-out: how many steps are timed, after {} of warm-up; {} unless given; "
-                               "batching: after how many the contacts of --scene are taken; 200 unless given",
-                               scene_warm_steps, scene_timed_steps))
+      ->add_option(
+          "--steps", options->steps,
+          fmt::format("scenes, left-out: how many steps are timed, after {} of warm-up; {} unless given; "
+                      "batching: after how many the contacts of --scene are taken; controls: timed steps; 200 unless "
+                      "given",
+                      scene_warm_steps, scene_timed_steps))
       ->type_name("N");
   command
       ->add_option("--table-in", options->table,

@@ -48,6 +48,16 @@ struct WorldJoint {
   uint32_t world, joint;
 };
 
+/* What a program may set of an axis of a joint in every step: JointAxis::force, target_position or target_velocity. */
+enum class Control { force, target_position, target_velocity };
+
+/* An axis that is controlled in all worlds of a batch: of the joint with this index in the scene of each. */
+struct ControlledAxis {
+  uint32_t joint = 0;
+  uint32_t axis = 3; /* 0 to 2: directions x, y, z; 3 to 5: rotations */
+  Control what = Control::force;
+};
+
 /* The events of all worlds; their bodies are numbered as in the scenes of the worlds. */
 template <class Event> struct WorldEvents {
   std::vector<Event> all;    /* world after world */
@@ -117,6 +127,18 @@ public:
   /* The same with an entry for each joint. Axes keep their kind: one that was neither limited, driven nor braked is not
    * from then on, because the tables of a batch have no room for it. */
   void set_joint_axes(std::span<const WorldJoint> joints, std::span<const JointAxisChange> changes);
+
+  /* Chooses what set_controls sets, instead of what was chosen before. Throws InputError if a world has no such joint
+   * or axis, if an axis is given twice, and if its drive cannot follow: a force needs damping (a little is enough), a
+   * target position stiffness, a target velocity damping or a motor. */
+  void choose_controls(std::span<const ControlledAxis> axes);
+  /* From the next step on, as set_joint_axes does it for few joints, with the same bits, but quickly for many:
+   * values[world * controls + k], or values[i * controls + k] for the i-th of the worlds given, is that of the k-th
+   * axis chosen; N or N m, m or rad, m/s or rad/s. They stay until they are set again, also when a world is reset.
+   * InputError unless there is a finite one for each. */
+  void set_controls(std::span<const float> values);
+  void set_controls(std::span<const uint32_t> worlds, std::span<const float> values);
+
   std::vector<JointReading> read_joints(std::span<const WorldJoint> joints);
 
   /* Of the last step, as those of World; a world that was reset since has none. */
@@ -157,6 +179,7 @@ public:
 
 private:
   struct Implementation;
+  class Controls;
   std::unique_ptr<Implementation> implementation_;
 };
 

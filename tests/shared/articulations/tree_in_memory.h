@@ -14,6 +14,7 @@ public:
     code_.resize(links);
     next_.resize(links);
     link_.resize(links * LINK_ROWS);
+    range_.resize(links);
     state_.resize(links * STATE_ROWS);
     work_.resize(links * WORK_ROWS);
     root_.resize(stride * ROOT_ROWS);
@@ -25,6 +26,7 @@ public:
   {
     return {code_.data(),
             link_.data(),
+            range_.data(),
             state_.data(),
             root_.data(),
             work_.data(),
@@ -166,13 +168,13 @@ private:
       at(LINK_FRAME_B) = row(l.from_center, l.mass);
       at(LINK_FRAME_B_ORIENTATION) = row(l.axes_in_link);
       at(LINK_MOMENTS) = row(l.moments, implicit);
-      at(LINK_AXIS) = row(l.lower, l.upper, l.target, l.target_speed);
-      at(LINK_AXIS + 1) = row(l.stiffness, l.damping, l.largest_force, l.friction);
-      at(LINK_AXIS + 2) = row(0, 0, tree_tests::infinite, 0);
+      at(LINK_AXIS) = row(l.stiffness, l.damping, l.largest_force, l.friction);
+      at(LINK_AXIS + 1) = row(0, 0, tree_tests::infinite, 0);
+      range_[tree_row(&a, 1, k, 0)] = row(l.lower, l.upper, l.target, l.target_speed);
     }
   }
 
   const tree_tests::TreeModel model_;
   std::vector<uint> code_, next_;
-  std::vector<float4> link_, state_, root_, work_;
+  std::vector<float4> link_, range_, state_, root_, work_;
 };

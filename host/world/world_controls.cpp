@@ -1,0 +1,212 @@
+/* world_controls.cpp - see world_controls.h. */
+#include "host/world/world_controls.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include <tandem/error.h>
+
+#include "host/scene/articulation_order.h"
+#include "host/scene/joint_buffers.h"
+#include "host/scene/joint_rows.h"
+#include "shared/joints/joint_codes.h"
+
+namespace tandem {
+namespace {
+
+constexpr float largest_float = std::numeric_limits<float>::max();
+
+JointAxis &axis_in(Joint &joint, uint32_t axis)
+{
+  return axis < 3 ? joint.directions[axis] : joint.rotations[axis - 3];
+}
+const JointAxis &axis_in(const Joint &joint, uint32_t axis)
+{
+  return axis < 3 ? joint.directions[axis] : joint.rotations[axis - 3];
+}
+
+/* What the control sets. */
+float &value_in(JointAxis &axis, Control what)
+{
+  switch (what) {
+  case Control::force: return axis.force;
+  case Control::target_position: return axis.target_position;
+  default: return axis.target_velocity;
+  }
+}
+
+/* Why an axis cannot have the control; nullptr: it can. */
+const char *lack_of(const JointAxis &axis, Control what)
+{
+  const bool damped = axis.damping > 0;
+  switch (what) {
+  case Control::force:
+    if (axis.motor) return "is a motor, which has no force; control its target_velocity";
+    return damped ? nullptr : "has no damping; a force needs some, and 1e-6 is enough";
+  case Control::target_position: return axis.stiffness > 0 ? nullptr : "has no stiffness to pull it to a position";
+  case Control::target_velocity:
+    return damped || axis.motor ? nullptr : "is no motor and has no damping to bring it to a velocity";
+  }
+  return "has no control of that kind";
+}
+
+/* The tree of an articulation has one axis of a hinge or slider; a ball has others only where they are rows. */
+bool is_axis_of_tree(const Joint &joint, uint32_t axis)
+{
+  return (joint.type == JointType::hinge && axis == 3) || (joint.type == JointType::slider && axis == 0);
+}
+
+void check_control(const Joint &joint, bool in_tree, const ControlledAxis &control, const std::string &where)
+{
+  const auto fail = [&](const std::string &why) { throw InputError(where + why); };
+  if (!joint.enabled) fail("is not enabled");
+  if (control.axis >= 6)
+    fail(fmt::format("axis {} does not exist; 0 to 2 are directions, 3 to 5 rotations", control.axis));
+  if (kind_of_axis(joint, control.axis) == JOINT_AXIS_NONE) fail(fmt::format("axis {} is not free", control.axis));
+  if (in_tree && !has_rows_besides_tree(joint) && !is_axis_of_tree(joint, control.axis))
+    fail(fmt::format("axis {} is one of a ball of an articulation; hinges and sliders have controls there",
+                     control.axis));
+  if (const char *lack = lack_of(axis_in(joint, control.axis), control.what))
+    fail(fmt::format("axis {} {}", control.axis, lack));
+}
+
+void check_distinct(std::span<const ControlledAxis> axes)
+{
+  for (size_t i = 0; i < axes.size(); ++i)
+    for (size_t k = 0; k < i; ++k)
+      if (axes[i].joint == axes[k].joint && axes[i].axis == axes[k].axis)
+        throw InputError(
+            fmt::format("choose_controls: entries {} and {} are of one axis; an axis has one control", k, i));
+}
+
+/* The place of the axis among those that the joint limits, drives or brakes. */
+uint32_t place_of_axis(const Joint &joint, uint32_t kind)
+{
+  const std::vector<UsedAxis> used = axes_used_by(joint);
+  const auto found = std::find_if(used.begin(), used.end(), [&](const UsedAxis &one) { return one.kind == kind; });
+  return static_cast<uint32_t>(found - used.begin());
+}
+
+} // namespace
+
+Worlds::Controls::Controls(const World::Implementation &engine, const SceneTables &tables,
+                           std::span<const ControlledAxis> axes)
+    : chosen_(axes.begin(), axes.end()), joints_number_(engine.joints_number)
+{
+  check_distinct(axes);
+  for (uint32_t world = 0; world < tables.worlds(); ++world)
+    for (size_t i = 0; i < axes.size(); ++i) {
+      const std::string where = fmt::format("choose_controls: entry {}: world {}: joint {}: ", i, world, axes[i].joint);
+      if (axes[i].joint >= tables.joints(world))
+        throw InputError(fmt::format("{}it does not exist; the world has {} joints", where, tables.joints(world)));
+      const uint32_t number = tables.first_joint(world) + axes[i].joint;
+      const Joint &joint = engine.scene.joints[number];
+      check_control(joint, engine.is_in_tree(number), axes[i], where);
+      targets_.push_back(target_of(engine, number, axes[i]));
+    }
+}
+
+/* The index of the rows in rows_, to which they are added. */
+uint32_t Worlds::Controls::rows_of(Buffer buffer, size_t first, size_t count)
+{
+  const auto found = std::find_if(rows_.begin(), rows_.end(),
+                                  [&](const Rows &rows) { return rows.buffer == buffer && rows.first == first; });
+  const auto index = static_cast<uint32_t>(found - rows_.begin());
+  if (found == rows_.end()) rows_.push_back({buffer, first, std::vector<float4>(count)});
+  return index;
+}
+
+Worlds::Controls::Target Worlds::Controls::target_of(const World::Implementation &engine, uint32_t joint,
+                                                     const ControlledAxis &control)
+{
+  const Joint &whole = engine.scene.joints[joint];
+  JointAxis axis = axis_in(whole, control.axis);
+  Target target{joint, 0, 0, value_in(axis, control.what), 0, 0};
+  value_in(axis, control.what) = 0;
+  const auto rows = row_of_axis(axis);
+  target.damping = rows[1].y;
+  target.rest = rows[0].w;
+  const size_t joints = engine.scene.joints.size();
+  if (engine.is_in_tree(joint) && !has_rows_besides_tree(whole)) {
+    const TreePlace &place = engine.links.places[engine.links.of_joint[joint]];
+    target.rows = rows_of(Buffer::link_range, 0, engine.links.count);
+    target.row = static_cast<uint32_t>(place.row(1, engine.links.number_of_joint[joint], 0));
+  } else {
+    const size_t plane = size_t{3} * place_of_axis(whole, kind_of_axis(whole, control.axis));
+    target.rows = rows_of(Buffer::joint_axis_row, plane * joints, joints);
+    target.row = engine.joint_order.place_of(joint);
+  }
+  return target;
+}
+
+/* The rows as they are, and values with what other calls have set since. */
+void Worlds::Controls::read_back(World::Implementation &engine)
+{
+  const bool are_old = joints_number_ != engine.joints_number;
+  if (were_read_ && !are_old) return;
+  for (Rows &rows : rows_) rows.rows = engine.memory.read<float4>(rows.buffer, rows.rows.size(), rows.first);
+  for (size_t i = 0; are_old && i < targets_.size(); ++i)
+    targets_[i] = target_of(engine, targets_[i].joint, chosen_[i % count()]);
+  joints_number_ = engine.joints_number;
+  were_read_ = true;
+}
+
+/* As row_of_axis has it. */
+void Worlds::Controls::write_row(const ControlledAxis &control, const Target &target)
+{
+  float4 &row = rows_[target.rows].rows[target.row];
+  if (control.what == Control::target_position) row.z = target.value;
+  else if (control.what == Control::force) row.w = target.rest + target.value / target.damping;
+  else row.w = target.damping > 0 ? target.value + target.rest : target.value;
+}
+
+/* A force is a damper towards a speed that a float must hold: damper_of in host/scene/joint_buffers.cpp. */
+void Worlds::Controls::check(std::span<const uint32_t> worlds, std::span<const float> values) const
+{
+  const float *value = values.data();
+  for (const uint32_t world : worlds)
+    for (size_t k = 0; k < count(); ++k, ++value) {
+      const float damping = targets_[world * count() + k].damping;
+      const float most = chosen_[k].what == Control::force ? fastest_damper * damping : largest_float;
+      if (!(std::abs(*value) <= most))
+        throw InputError(fmt::format("set_controls: control {} of world {} is {:g}; {:g} to {:g} is possible", k, world,
+                                     *value, -most, most));
+    }
+}
+
+void Worlds::Controls::set(World::Implementation &engine, std::span<const uint32_t> worlds,
+                           std::span<const float> values)
+{
+  if (values.empty()) return;
+  read_back(engine);
+  check(worlds, values);
+  engine.settle();
+  engine.buffers.make_ready(engine.sizes());
+  for (const Rows &rows : rows_) engine.memory.prepare_upload(rows.buffer);
+  const float *value = values.data();
+  for (const uint32_t world : worlds)
+    for (size_t k = 0; k < count(); ++k) {
+      Target &target = targets_[world * count() + k];
+      target.value = *value++;
+      write_row(chosen_[k], target);
+    }
+  ++engine.state;
+  scene_is_behind_ = true;
+  for (const Rows &rows : rows_)
+    engine.memory.upload(rows.buffer, rows.rows.data(), rows.rows.size() * sizeof(float4), rows.first * sizeof(float4));
+}
+
+void Worlds::Controls::write_scene(Scene &scene)
+{
+  if (!scene_is_behind_) return;
+  for (size_t i = 0; i < targets_.size(); ++i) {
+    const ControlledAxis &control = chosen_[i % count()];
+    value_in(axis_in(scene.joints[targets_[i].joint], control.axis), control.what) = targets_[i].value;
+  }
+  scene_is_behind_ = false;
+}
+
+} // namespace tandem

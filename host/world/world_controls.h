@@ -1,0 +1,64 @@
+/* world_controls.h - what a program sets of the axes of joints in every step of a batch, such as the torques of robots.
+ *
+ * set_joint_axes checks whole joints and writes whole tables, milliseconds of a thousand robots. The controls are
+ * checked once, when they are chosen. From then on a value goes into a copy of the one row of its axis that it changes,
+ * and the rows of all axes are uploaded together:
+ *
+ *   link_range       lower  upper  target position  target velocity      of links of articulations
+ *   joint_axis_row   the same, the first of the three rows of an axis    of other joints
+ */
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <tandem/worlds.h>
+
+#include "host/runtime/memory.h"
+#include "host/world/implementation.h"
+#include "host/world/scene_tables.h"
+
+namespace tandem {
+
+class Worlds::Controls {
+public:
+  Controls() = default;
+  /* Throws InputError that names the first axis which cannot be controlled so. */
+  Controls(const World::Implementation &engine, const SceneTables &tables, std::span<const ControlledAxis> axes);
+
+  size_t count() const { return chosen_.size(); } /* of each world */
+  /* values: of each of these worlds in turn. If it throws, nothing has changed. */
+  void set(World::Implementation &engine, std::span<const uint32_t> worlds, std::span<const float> values);
+  /* The scene has what was set only after this, because a joint of it is far from the next one in memory. */
+  void write_scene(Scene &scene);
+
+private:
+  /* Rows of a buffer that follow one another, and what they will be. */
+  struct Rows {
+    Buffer buffer;
+    size_t first; /* element of the buffer */
+    std::vector<float4> rows;
+  };
+  /* A control of a world: what it writes, and where. */
+  struct Target {
+    uint32_t joint;     /* of the scene of all worlds */
+    uint32_t rows, row; /* of rows_ */
+    float value;
+    float damping; /* of an axis with a force */
+    float rest;    /* of the speed to which the damper pulls: what the other of force and target velocity makes */
+  };
+  void check(std::span<const uint32_t> worlds, std::span<const float> values) const;
+  Target target_of(const World::Implementation &engine, uint32_t joint, const ControlledAxis &control);
+  uint32_t rows_of(Buffer buffer, size_t first, size_t count);
+  void read_back(World::Implementation &engine);
+  void write_row(const ControlledAxis &control, const Target &target);
+
+  std::vector<ControlledAxis> chosen_;
+  std::vector<Target> targets_; /* [world, control] */
+  std::vector<Rows> rows_;
+  uint64_t joints_number_ = 0; /* World::Implementation::joints_number when the rows were read */
+  bool were_read_ = false, scene_is_behind_ = false;
+};
+
+} // namespace tandem

@@ -1,0 +1,200 @@
+/* Controls of a batch, beside worlds alone whose axes set_joint_axes sets to the same values. */
+#include <limits>
+
+#include "host/base/random.h"
+#include "tests/host/world/worlds.h"
+#include "tests/physics/articulate.h"
+#include "tests/physics/joints.h"
+
+using namespace tandem;
+using namespace tandem::physics_tests;
+using Catch::Matchers::ContainsSubstring;
+using tandem::tests::BatchBesideWorlds;
+
+namespace {
+
+/* A cart on a rail, a pole on the cart, a wheel at the end of the pole, and a ball that falls beside them. */
+Scene cart_and_pole()
+{
+  Scene scene = empty_scene();
+  for (int i = 0; i < 3; ++i) add_body(scene, BodyType::dynamic, box_shape(0.2f, 0.1f, 0.1f), {0, 1.0 - 0.5 * i, 0});
+  add_body(scene, BodyType::dynamic, sphere_shape(0.1f), {3, 0, 0});
+  connect(scene, JointType::slider, no_body, 0, {0, 1, 0}).directions[0].damping = 0.5f;
+  JointAxis &pole = connect(scene, JointType::hinge, 0, 1, {0, 1, 0}, Vector::UnitZ()).rotations[0];
+  pole.stiffness = 3, pole.damping = 0.25f, pole.target_velocity = 0.5f;
+  JointAxis &wheel = connect(scene, JointType::hinge, 1, 2, {0, 0, 0}, Vector::UnitZ()).rotations[0];
+  wheel.motor = true, wheel.max_force = 2;
+  for (Joint &joint : scene.joints) joint.collide = false;
+  return scene;
+}
+
+Scene cart_and_pole(bool in_tree)
+{
+  Scene scene = cart_and_pole();
+  if (in_tree) articulate(scene);
+  return scene;
+}
+
+const std::vector<ControlledAxis> all_kinds{
+    {0, 0, Control::force}, {1, 3, Control::target_position}, {2, 3, Control::target_velocity}};
+
+void set_alone(World &world, const ControlledAxis &control, float value)
+{
+  JointAxisChange change{control.axis, {}};
+  const Joint joint = world.scene().joints[control.joint];
+  change.to = control.axis < 3 ? joint.directions[control.axis] : joint.rotations[control.axis - 3];
+  if (control.what == Control::force) change.to.force = value;
+  else if (control.what == Control::target_position) change.to.target_position = value;
+  else change.to.target_velocity = value;
+  world.set_joint_axis(JointId{control.joint, 1}, change.axis, change.to);
+}
+
+/* Sets random values in some worlds of the batch, and in these alone. */
+void set_random(BatchBesideWorlds &both, std::span<const ControlledAxis> controls, std::span<const uint32_t> worlds,
+                Random &random)
+{
+  std::vector<float> values;
+  for (const uint32_t world : worlds)
+    for (const ControlledAxis &control : controls) {
+      values.push_back(float(random.uniform(-5, 5)));
+      set_alone(*both.alone[world], control, values.back());
+    }
+  both.batch.set_controls(worlds, values);
+}
+
+void require_equal_axes(BatchBesideWorlds &both)
+{
+  for (uint32_t world = 0; world < both.alone.size(); ++world) {
+    const Scene one = both.batch.scene(world), other = both.alone[world]->scene();
+    REQUIRE(one.joints.size() == other.joints.size());
+    for (size_t joint = 0; joint < one.joints.size(); ++joint) {
+      CAPTURE(world, joint);
+      CHECK(one.joints[joint].directions == other.joints[joint].directions);
+      CHECK(one.joints[joint].rotations == other.joints[joint].rotations);
+    }
+  }
+}
+
+} // namespace
+
+TEST_CASE("controls of a batch have the bits that set_joint_axes has alone")
+{
+  const bool in_tree = GENERATE(false, true);
+  CAPTURE(in_tree);
+  BatchBesideWorlds both(std::vector<Scene>(4, cart_and_pole(in_tree)), "serial");
+  Random random(7);
+  both.batch.choose_controls(all_kinds);
+  const uint64_t untouched = both.batch.body_hash(0);
+  for (int step = 0; step < 6; ++step) {
+    set_random(both, all_kinds, std::vector<uint32_t>{0, 1, 2, 3}, random);
+    both.step(1);
+  }
+  CHECK(both.batch.body_hash(0) != untouched);
+  CHECK(both.batch.body_hash(0) != both.batch.body_hash(1));
+  for (int step = 0; step < 4; ++step) {
+    set_random(both, all_kinds, std::vector<uint32_t>{3, 1}, random);
+    both.step(1);
+  }
+  require_equal_axes(both);
+  both.reset({0, 3});
+  both.step(2);
+  require_equal_axes(both);
+}
+
+TEST_CASE("controls see what set_joint_axes changes of their axes, and keep what others are")
+{
+  const bool in_tree = GENERATE(false, true);
+  CAPTURE(in_tree);
+  BatchBesideWorlds both(std::vector<Scene>(2, cart_and_pole(in_tree)), "serial");
+  Random random(11);
+  const std::vector<ControlledAxis> forces{{0, 0, Control::force}, {1, 3, Control::force}};
+  const std::vector<uint32_t> all{0, 1};
+  both.batch.choose_controls(forces);
+  set_random(both, forces, all, random);
+  both.step(2);
+  JointAxisChange stiffer{3, both.batch.scene(1).joints[1].rotations[0]};
+  stiffer.to.damping = 2, stiffer.to.target_velocity = -3, stiffer.to.lower = -1, stiffer.to.upper = 1;
+  both.batch.set_joint_axes(std::vector<WorldJoint>{{1, 1}}, std::span(&stiffer, 1));
+  both.alone[1]->set_joint_axis(JointId{1, 1}, 3, stiffer.to);
+  both.step(2);
+  set_random(both, forces, all, random);
+  both.step(2);
+  require_equal_axes(both);
+  both.batch.choose_controls(all_kinds);
+  set_random(both, all_kinds, all, random);
+  both.step(2);
+  require_equal_axes(both);
+}
+
+TEST_CASE("controls that were set last outlast a body of another tree that is taken out")
+{
+  BatchBesideWorlds both(std::vector<Scene>(3, cart_and_pole(true)), "serial");
+  Random random(3);
+  both.batch.choose_controls(all_kinds);
+  both.step(1);
+  set_random(both, all_kinds, std::vector<uint32_t>{0, 1, 2}, random);
+  BodyState state = both.batch.bodies(1)[1];
+  state.linear_velocity[0] = std::numeric_limits<float>::quiet_NaN();
+  both.batch.set_state_unchecked({1, 1}, state);
+  both.batch.step();
+  CHECK(both.batch.quarantined(1).size() == 3); /* the tree */
+  for (const uint32_t world : {0u, 2u}) {
+    both.alone[world]->step();
+    CAPTURE(world);
+    CHECK(both.batch.state_hash(world) == both.alone[world]->state_hash());
+  }
+}
+
+TEST_CASE("a controlled force moves a body as Newton says")
+{
+  Scene scene = empty_scene();
+  scene.gravity = {0, 0, 0};
+  add_body(scene, BodyType::dynamic, box_shape(0.5f, 0.5f, 0.5f), {0, 0, 0}).mass = 4;
+  connect(scene, JointType::slider, no_body, 0, {0, 0, 0}).directions[0].damping = 1e-6f;
+  if (GENERATE(false, true)) articulate(scene);
+  Worlds worlds(scene, 3, {}, {"serial", {}});
+  worlds.choose_controls(std::vector<ControlledAxis>{{0, 0, Control::force}});
+  worlds.set_controls(std::vector<float>{0, 6, -12});
+  for (int step = 0; step < 60; ++step) worlds.step();
+  for (const uint32_t world : {0u, 1u, 2u}) {
+    const double force = std::array<double, 3>{0, 6, -12}[world];
+    CHECK(worlds.bodies(world)[0].linear_velocity[0] == Approx(force / 4).epsilon(1e-4).margin(1e-9));
+  }
+}
+
+TEST_CASE("controls that cannot be are refused, and change nothing")
+{
+  Scene scene = cart_and_pole(true);
+  add_body(scene, BodyType::dynamic, sphere_shape(0.1f), {5, 0, 0});
+  Joint &ball = connect(scene, JointType::ball, no_body, 4, {5, 0, 1});
+  for (JointAxis &axis : ball.rotations) axis.stiffness = axis.damping = 1;
+  ball.type = JointType::ball;
+  scene.articulations.push_back({});
+  scene.articulations.back().joints = {3};
+  Worlds worlds(scene, 2, {}, {"serial", {}});
+  const auto refuses = [&](const ControlledAxis &control, const char *why) {
+    CHECK_THROWS_WITH(worlds.choose_controls(std::span(&control, 1)), ContainsSubstring(why));
+  };
+  refuses({4, 3, Control::force}, "entry 0: world 0: joint 4: it does not exist; the world has 4 joints");
+  refuses({0, 6, Control::force}, "axis 6 does not exist; 0 to 2 are directions, 3 to 5 rotations");
+  refuses({0, 3, Control::force}, "axis 3 is not free");
+  refuses({0, 0, Control::target_position}, "axis 0 has no stiffness to pull it to a position");
+  refuses({2, 3, Control::force}, "axis 3 is a motor, which has no force; control its target_velocity");
+  refuses({3, 3, Control::target_position}, "axis 3 is one of a ball of an articulation");
+  const std::vector<ControlledAxis> twice{all_kinds[0], all_kinds[1], {0, 0, Control::target_velocity}};
+  CHECK_THROWS_WITH(worlds.choose_controls(twice), "choose_controls: entries 0 and 2 are of one axis; an axis has one "
+                                                   "control");
+  CHECK_THROWS_WITH(worlds.set_controls(std::vector<float>{1}),
+                    ContainsSubstring("1 values for 2 worlds of 0 controls"));
+  worlds.choose_controls(all_kinds);
+  const std::vector<uint64_t> before = worlds.state_hashes();
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  CHECK_THROWS_WITH(worlds.set_controls(std::vector<float>{1, 1, 1, 1, nan, 1}),
+                    ContainsSubstring("set_controls: control 1 of world 1 is nan"));
+  CHECK_THROWS_WITH(worlds.set_controls(std::vector<float>{1e12f, 0, 0, 0, 0, 0}),
+                    ContainsSubstring("control 0 of world 0 is 1e+12; -5e+11 to 5e+11 is possible"));
+  CHECK_THROWS_WITH(worlds.set_controls(std::vector<uint32_t>{2}, std::vector<float>{1, 1, 1}),
+                    ContainsSubstring("set_controls: world 2 does not exist"));
+  CHECK(worlds.scene(0).joints[0].directions[0].force == 0);
+  CHECK(worlds.state_hashes() == before);
+}

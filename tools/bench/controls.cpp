@@ -1,0 +1,165 @@
+/* controls.cpp - see controls.h. */
+#include "tools/bench/controls.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include <fmt/format.h>
+
+#include <tandem/load_scene.h>
+#include <tandem/worlds.h>
+
+#include "host/base/random.h"
+#include "tools/command/measure.h"
+#include "tools/command/progress.h"
+#include "tools/command/scene_options.h"
+
+namespace tandem {
+namespace {
+
+constexpr const char *robot_unless_given = "humanoid";
+constexpr uint32_t worlds_unless_given = 1024, turns = 4, steps_of_turn = 50;
+constexpr uint64_t untimed_steps = uint64_t{turns} * steps_of_turn, steps_unless_given = untimed_steps;
+constexpr float control_step = 0.005f; /* s, as learners of walking take it */
+constexpr float largest_force = 40;    /* N m, or N: the mean of the joints of MuJoCo's humanoid.xml */
+
+struct ControlsTime {
+  std::string scene;
+  uint32_t worlds = 0;
+  size_t controls = 0;      /* of each world */
+  double set = 0, step = 0; /* ms for all worlds, on average over the steps */
+  double contacts = 0;      /* points of a world, at the end */
+};
+
+/* Of hinges and sliders, which have one axis each. */
+std::vector<ControlledAxis> damped_axes(const Scene &scene)
+{
+  std::vector<ControlledAxis> axes;
+  for (uint32_t joint = 0; joint < scene.joints.size(); ++joint) {
+    const Joint &one = scene.joints[joint];
+    const bool is_hinge = one.type == JointType::hinge;
+    const JointAxis &axis = is_hinge ? one.rotations[0] : one.directions[0];
+    if ((is_hinge || one.type == JointType::slider) && axis.damping > 0 && !axis.motor)
+      axes.push_back({joint, is_hinge ? 3u : 0u, Control::force});
+  }
+  if (axes.empty())
+    throw InputError(fmt::format("{}: no hinge or slider has damping, so there is none to drive", scene.name));
+  return axes;
+}
+
+using Clock = std::chrono::steady_clock;
+double milliseconds_from(Clock::time_point start, Clock::time_point end)
+{
+  return std::chrono::duration<double, std::milli>(end - start).count();
+}
+
+class DrivenWorlds {
+public:
+  DrivenWorlds(const Scene &scene, uint32_t worlds, const Placement &placement)
+      : worlds_(scene, worlds, settings(), placement), controls_(damped_axes(scene)), values_(worlds * controls_.size())
+  {
+    worlds_.choose_controls(controls_);
+  }
+
+  ControlsTime run(uint64_t steps)
+  {
+    prepare_for_timing(worlds_);
+    Progress progress(fmt::format("{} worlds", worlds_.count()), untimed_steps + steps);
+    ControlsTime time;
+    for (uint64_t step = 0; step < untimed_steps + steps; ++step) {
+      if (step == untimed_steps) time.set = time.step = 0;
+      advance(step, time);
+      progress.update(step + 1);
+    }
+    time.worlds = worlds_.count();
+    time.controls = controls_.size();
+    time.set /= static_cast<double>(steps);
+    time.step /= static_cast<double>(steps);
+    time.contacts = static_cast<double>(worlds_.statistics().contacts) / worlds_.count();
+    return time;
+  }
+
+private:
+  static Settings settings()
+  {
+    Settings settings;
+    settings.step = control_step;
+    settings.substeps = 1;
+    return settings;
+  }
+  void advance(uint64_t step, ControlsTime &time)
+  {
+    for (float &value : values_) value = static_cast<float>(random_.uniform(-largest_force, largest_force));
+    worlds_.finish();
+    const Clock::time_point before = Clock::now();
+    if (step % steps_of_turn == 0) begin_anew(step / steps_of_turn % turns);
+    worlds_.set_controls(values_);
+    const Clock::time_point between = Clock::now();
+    worlds_.step();
+    worlds_.finish();
+    time.set += milliseconds_from(before, between);
+    time.step += milliseconds_from(between, Clock::now());
+  }
+  void begin_anew(uint64_t turn)
+  {
+    std::vector<uint32_t> numbers;
+    for (auto world = static_cast<uint32_t>(turn); world < worlds_.count(); world += turns) numbers.push_back(world);
+    worlds_.reset(numbers);
+  }
+
+  Worlds worlds_;
+  std::vector<ControlledAxis> controls_;
+  std::vector<float> values_;
+  Random random_{1};
+};
+
+double driven_steps_a_second(const ControlsTime &time)
+{
+  return 1e3 * time.worlds / std::max(time.set + time.step, 1e-9);
+}
+
+std::string text_of(const ControlsTime &time, uint64_t steps)
+{
+  return fmt::format("  {}: {} worlds, {} forces of up to {:g} N m drawn anew for each in {} steps of {:g} ms\n"
+                     "  setting them {:.3f} ms, stepping {:.3f} ms: {:.0f} world-steps/s; {:.1f} contact points in a "
+                     "world\n",
+                     time.scene, time.worlds, time.controls, largest_force, steps, 1e3 * control_step, time.set,
+                     time.step, driven_steps_a_second(time), time.contacts);
+}
+
+Json json_of(const ControlsTime &time)
+{
+  return {{"scene", time.scene},
+          {"worlds", time.worlds},
+          {"controls", time.controls},
+          {"set_ms", time.set},
+          {"step_ms", time.step},
+          {"world_steps_per_second", driven_steps_a_second(time)},
+          {"contact_points", time.contacts}};
+}
+
+} // namespace
+
+int execute_controls(const BenchOptions &options)
+{
+  const std::vector<std::string> scenes =
+      options.scenes.empty() ? std::vector<std::string>{robot_unless_given} : scenes_of_parts(options.scenes);
+  const auto worlds = options.count.empty()
+                          ? worlds_unless_given
+                          : static_cast<uint32_t>(whole_number("--n", options.count, 1, most_bodies / 16));
+  const uint64_t steps =
+      options.steps.empty() ? steps_unless_given : whole_number("--steps", options.steps, 1, uint64_t{1000000});
+  options.json.check();
+  Json times = Json::array();
+  for (const std::string &name : scenes) {
+    const Scene scene = load_scene(name, OutsideFiles::allowed, Coordinates::reduced);
+    ControlsTime time = DrivenWorlds(scene, worlds, {options.on, {}, options.inexact}).run(steps);
+    time.scene = name;
+    if (!options.json.takes_standard_output()) fmt::print("controls on {}\n{}", options.on, text_of(time, steps));
+    times.push_back(json_of(time));
+  }
+  options.json.write({{"what", options.what}, {"backend", options.on}, {"robots", times}});
+  return 0;
+}
+
+} // namespace tandem
