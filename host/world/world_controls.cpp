@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 
@@ -16,8 +15,6 @@
 
 namespace tandem {
 namespace {
-
-constexpr float largest_float = std::numeric_limits<float>::max();
 
 JointAxis &axis_in(Joint &joint, uint32_t axis)
 {
@@ -38,6 +35,9 @@ float &value_in(JointAxis &axis, Control what)
   }
 }
 
+/* A force is a damper towards a speed that a float must hold: damper_of in host/scene/joint_buffers.cpp. */
+bool can_hold(float damping, float force) { return std::abs(force) / fastest_damper <= damping; }
+
 /* Why an axis cannot have the control; nullptr: it can. */
 const char *lack_of(const JointAxis &axis, Control what)
 {
@@ -45,7 +45,8 @@ const char *lack_of(const JointAxis &axis, Control what)
   switch (what) {
   case Control::force:
     if (axis.motor) return "is a motor, which has no force; control its target_velocity";
-    return damped ? nullptr : "has no damping; a force needs some, and 1e-6 is enough";
+    if (!damped) return "has no damping; a force needs some, and 1e-6 is enough";
+    return can_hold(axis.damping, axis.force) ? nullptr : "has a force too large for its damping";
   case Control::target_position: return axis.stiffness > 0 ? nullptr : "has no stiffness to pull it to a position";
   case Control::target_velocity:
     return damped || axis.motor ? nullptr : "is no motor and has no damping to bring it to a velocity";
@@ -98,15 +99,19 @@ Worlds::Controls::Controls(const World::Implementation &engine, const SceneTable
 {
   check_distinct(axes);
   for (uint32_t world = 0; world < tables.worlds(); ++world)
-    for (size_t i = 0; i < axes.size(); ++i) {
-      const std::string where = fmt::format("choose_controls: entry {}: world {}: joint {}: ", i, world, axes[i].joint);
-      if (axes[i].joint >= tables.joints(world))
+    for (size_t k = 0; k < axes.size(); ++k) {
+      const std::string where = fmt::format("choose_controls: entry {}: world {}: joint {}: ", k, world, axes[k].joint);
+      if (axes[k].joint >= tables.joints(world))
         throw InputError(fmt::format("{}it does not exist; the world has {} joints", where, tables.joints(world)));
-      const uint32_t number = tables.first_joint(world) + axes[i].joint;
-      const Joint &joint = engine.scene.joints[number];
-      check_control(joint, engine.is_in_tree(number), axes[i], where);
-      targets_.push_back(target_of(engine, number, axes[i]));
+      targets_.push_back(checked_target(engine, tables.first_joint(world) + axes[k].joint, axes[k], where));
     }
+}
+
+Worlds::Controls::Target Worlds::Controls::checked_target(const World::Implementation &engine, uint32_t joint,
+                                                          const ControlledAxis &control, const std::string &where)
+{
+  check_control(engine.scene.joints[joint], engine.is_in_tree(joint), control, where);
+  return target_of(engine, joint, control);
 }
 
 /* The index of the rows in rows_, to which they are added. */
@@ -147,9 +152,12 @@ void Worlds::Controls::read_back(World::Implementation &engine)
 {
   const bool are_old = joints_number_ != engine.joints_number;
   if (were_read_ && !are_old) return;
-  for (Rows &rows : rows_) rows.rows = engine.memory.read<float4>(rows.buffer, rows.rows.size(), rows.first);
+  std::vector<Target> targets;
   for (size_t i = 0; are_old && i < targets_.size(); ++i)
-    targets_[i] = target_of(engine, targets_[i].joint, chosen_[i % count()]);
+    targets.push_back(checked_target(engine, targets_[i].joint, chosen_[i % count()],
+                                     fmt::format("set_controls: control {} of world {}: ", i % count(), i / count())));
+  for (Rows &rows : rows_) rows.rows = engine.memory.read<float4>(rows.buffer, rows.rows.size(), rows.first);
+  if (are_old) targets_ = std::move(targets);
   joints_number_ = engine.joints_number;
   were_read_ = true;
 }
@@ -163,17 +171,18 @@ void Worlds::Controls::write_row(const ControlledAxis &control, const Target &ta
   else row.w = target.damping > 0 ? target.value + target.rest : target.value;
 }
 
-/* A force is a damper towards a speed that a float must hold: damper_of in host/scene/joint_buffers.cpp. */
 void Worlds::Controls::check(std::span<const uint32_t> worlds, std::span<const float> values) const
 {
   const float *value = values.data();
   for (const uint32_t world : worlds)
     for (size_t k = 0; k < count(); ++k, ++value) {
+      const bool is_force = chosen_[k].what == Control::force;
       const float damping = targets_[world * count() + k].damping;
-      const float most = chosen_[k].what == Control::force ? fastest_damper * damping : largest_float;
-      if (!(std::abs(*value) <= most))
-        throw InputError(fmt::format("set_controls: control {} of world {} is {:g}; {:g} to {:g} is possible", k, world,
-                                     *value, -most, most));
+      if (std::isfinite(*value) && (!is_force || can_hold(damping, *value))) continue;
+      throw InputError(fmt::format(
+          "set_controls: control {} of world {} is {:g}; {} is needed", k, world, *value,
+          is_force ? fmt::format("at most {:g}, of its damping {:g}, in size", fastest_damper * damping, damping)
+                   : "a finite number"));
     }
 }
 

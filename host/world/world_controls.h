@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <tandem/worlds.h>
@@ -49,6 +50,8 @@ private:
     float rest;    /* of the speed to which the damper pulls: what the other of force and target velocity makes */
   };
   void check(std::span<const uint32_t> worlds, std::span<const float> values) const;
+  Target checked_target(const World::Implementation &engine, uint32_t joint, const ControlledAxis &control,
+                        const std::string &where);
   Target target_of(const World::Implementation &engine, uint32_t joint, const ControlledAxis &control);
   uint32_t rows_of(Buffer buffer, size_t first, size_t count);
   void read_back(World::Implementation &engine);

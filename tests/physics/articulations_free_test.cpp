@@ -90,6 +90,29 @@ TEST_CASE("free articulations keep their momentum to 1e-5 of that of their links
   }
 }
 
+/* A contact that starts a step with its impulses must push both of its sides. */
+TEST_CASE("a box and a free tree that forces press together keep their momentum", "[articulations]")
+{
+  for (const uint32_t substeps : {1u, 2u, 4u}) {
+    Scene scene = straight_chain(3, {0, 0, 0});
+    for (Body &body : scene.bodies) body.filter_mask = ~0u;
+    add_body(scene, BodyType::dynamic, box_shape(0.1f, 0.1f, 0.1f), {0.42, 100.2, 0});
+    Settings settings;
+    settings.substeps = substeps;
+    World world(scene, settings, alone);
+    for (int k = 0; k < 60; ++k) {
+      for (const uint32_t body : {1u, 3u}) /* along the line between the centres */
+        world.add_force(BodyId{body, 1}, {{0, body == 1 ? 20.0f : -20.0f, 0}, {0, 0, 0}});
+      world.step();
+    }
+    const Momentum after = momentum_of(world);
+    CAPTURE(substeps);
+    CHECK(world.statistics().contacts > 0);
+    CHECK(world.precise_bodies()[3].position[1] - world.precise_bodies()[1].position[1] > 0.18);
+    CHECK(after.linear.norm() < 1e-5 * 20); /* of the impulse that presses in a second */
+  }
+}
+
 TEST_CASE("free trees that turn fast keep energy and momentum", "[articulations]")
 {
   for (const double speed : {5.0, 20.0, 100.0})

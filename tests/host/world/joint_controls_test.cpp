@@ -13,7 +13,8 @@ using tandem::tests::BatchBesideWorlds;
 
 namespace {
 
-/* A cart on a rail, a pole on the cart, a wheel at the end of the pole, and a ball that falls beside them. */
+/* A cart on a rail, a pole on the cart, a wheel at the end of the pole, a flag that turns about two axes on the cart,
+ * and a ball that falls beside them. */
 Scene cart_and_pole()
 {
   Scene scene = empty_scene();
@@ -24,6 +25,11 @@ Scene cart_and_pole()
   pole.stiffness = 3, pole.damping = 0.25f, pole.target_velocity = 0.5f;
   JointAxis &wheel = connect(scene, JointType::hinge, 1, 2, {0, 0, 0}, Vector::UnitZ()).rotations[0];
   wheel.motor = true, wheel.max_force = 2;
+  add_body(scene, BodyType::dynamic, box_shape(0.1f, 0.1f, 0.1f), {0, 1.5, 0});
+  Joint &flag = connect(scene, JointType::six_dof, 0, 4, {0, 1.25, 0});
+  flag.held_directions = {true, true, true};
+  flag.rotations[0].friction = 0.1f;
+  flag.rotations[1].damping = 0.2f, flag.rotations[2].damping = 0.3f, flag.rotations[2].stiffness = 4;
   for (Joint &joint : scene.joints) joint.collide = false;
   return scene;
 }
@@ -35,8 +41,21 @@ Scene cart_and_pole(bool in_tree)
   return scene;
 }
 
-const std::vector<ControlledAxis> all_kinds{
-    {0, 0, Control::force}, {1, 3, Control::target_position}, {2, 3, Control::target_velocity}};
+const std::vector<ControlledAxis> all_kinds{{0, 0, Control::force},
+                                            {1, 3, Control::target_position},
+                                            {2, 3, Control::target_velocity},
+                                            {3, 4, Control::force},
+                                            {3, 5, Control::target_position}};
+
+/* Equally many bodies, but other drives, and one joint more. */
+std::vector<Scene> scenes_of(bool in_tree)
+{
+  std::vector<Scene> scenes(4, cart_and_pole(in_tree));
+  scenes[1].joints[0].directions[0].damping = 3;
+  scenes[1].joints[1].rotations[0].target_velocity = -2;
+  connect(scenes[2], JointType::hinge, no_body, 3, {3, 1, 0}, Vector::UnitZ()).rotations[0].damping = 1;
+  return scenes;
+}
 
 void set_alone(World &world, const ControlledAxis &control, float value)
 {
@@ -81,7 +100,7 @@ TEST_CASE("controls of a batch have the bits that set_joint_axes has alone")
 {
   const bool in_tree = GENERATE(false, true);
   CAPTURE(in_tree);
-  BatchBesideWorlds both(std::vector<Scene>(4, cart_and_pole(in_tree)), "serial");
+  BatchBesideWorlds both(scenes_of(in_tree), "serial");
   Random random(7);
   both.batch.choose_controls(all_kinds);
   const uint64_t untouched = both.batch.body_hash(0);
@@ -95,6 +114,7 @@ TEST_CASE("controls of a batch have the bits that set_joint_axes has alone")
     set_random(both, all_kinds, std::vector<uint32_t>{3, 1}, random);
     both.step(1);
   }
+  CHECK(both.batch.save(3) == both.alone[3]->save());
   require_equal_axes(both);
   both.reset({0, 3});
   both.step(2);
@@ -137,12 +157,47 @@ TEST_CASE("controls that were set last outlast a body of another tree that is ta
   state.linear_velocity[0] = std::numeric_limits<float>::quiet_NaN();
   both.batch.set_state_unchecked({1, 1}, state);
   both.batch.step();
-  CHECK(both.batch.quarantined(1).size() == 3); /* the tree */
+  CHECK(both.batch.quarantined(1).size() == 4); /* the tree */
   for (const uint32_t world : {0u, 2u}) {
     both.alone[world]->step();
     CAPTURE(world);
     CHECK(both.batch.state_hash(world) == both.alone[world]->state_hash());
   }
+}
+
+TEST_CASE("of a world given twice, the last controls count")
+{
+  Worlds worlds(cart_and_pole(), 2, {}, {"serial", {}});
+  worlds.choose_controls(std::vector<ControlledAxis>{{0, 0, Control::force}});
+  worlds.set_controls(std::vector<uint32_t>{1, 1}, std::vector<float>{3, 4});
+  CHECK(worlds.scene(1).joints[0].directions[0].force == 4);
+  CHECK(worlds.scene(0).joints[0].directions[0].force == 0);
+}
+
+TEST_CASE("controls are refused once their axis has no damping for a force, or a force too large for it")
+{
+  const bool in_tree = GENERATE(false, true);
+  CAPTURE(in_tree);
+  Worlds worlds(cart_and_pole(in_tree), 2, {}, {"serial", {}});
+  const ControlledAxis force{1, 3, Control::force};
+  worlds.choose_controls(std::span(&force, 1));
+  const auto become = [&](float damping, float pushed) {
+    JointAxisChange change{3, worlds.scene(1).joints[1].rotations[0]};
+    change.to.damping = damping, change.to.force = pushed;
+    worlds.set_joint_axes(std::vector<WorldJoint>{{1, 1}}, std::span(&change, 1));
+  };
+  become(0, 0);
+  CHECK_THROWS_WITH(worlds.set_controls(std::vector<float>{0, 0}),
+                    ContainsSubstring("set_controls: control 0 of world 1: axis 3 has no damping"));
+  become(1e-6f, 1e8f);
+  CHECK_THROWS_WITH(worlds.set_controls(std::vector<float>{0, 0}),
+                    ContainsSubstring("control 0 of world 1: axis 3 has a force too large for its damping"));
+  CHECK_THROWS_WITH(worlds.choose_controls(std::span(&force, 1)),
+                    ContainsSubstring("world 1: joint 1: axis 3 has a force"));
+  become(0.5f, 0);
+  worlds.set_controls(std::vector<float>{1, 2});
+  worlds.step();
+  CHECK(worlds.quarantined(1).empty());
 }
 
 TEST_CASE("a controlled force moves a body as Newton says")
@@ -166,21 +221,21 @@ TEST_CASE("controls that cannot be are refused, and change nothing")
 {
   Scene scene = cart_and_pole(true);
   add_body(scene, BodyType::dynamic, sphere_shape(0.1f), {5, 0, 0});
-  Joint &ball = connect(scene, JointType::ball, no_body, 4, {5, 0, 1});
+  Joint &ball = connect(scene, JointType::ball, no_body, 5, {5, 0, 1});
   for (JointAxis &axis : ball.rotations) axis.stiffness = axis.damping = 1;
   ball.type = JointType::ball;
   scene.articulations.push_back({});
-  scene.articulations.back().joints = {3};
+  scene.articulations.back().joints = {4};
   Worlds worlds(scene, 2, {}, {"serial", {}});
   const auto refuses = [&](const ControlledAxis &control, const char *why) {
     CHECK_THROWS_WITH(worlds.choose_controls(std::span(&control, 1)), ContainsSubstring(why));
   };
-  refuses({4, 3, Control::force}, "entry 0: world 0: joint 4: it does not exist; the world has 4 joints");
+  refuses({5, 3, Control::force}, "entry 0: world 0: joint 5: it does not exist; the world has 5 joints");
   refuses({0, 6, Control::force}, "axis 6 does not exist; 0 to 2 are directions, 3 to 5 rotations");
   refuses({0, 3, Control::force}, "axis 3 is not free");
   refuses({0, 0, Control::target_position}, "axis 0 has no stiffness to pull it to a position");
   refuses({2, 3, Control::force}, "axis 3 is a motor, which has no force; control its target_velocity");
-  refuses({3, 3, Control::target_position}, "axis 3 is one of a ball of an articulation");
+  refuses({4, 3, Control::target_position}, "axis 3 is one of a ball of an articulation");
   const std::vector<ControlledAxis> twice{all_kinds[0], all_kinds[1], {0, 0, Control::target_velocity}};
   CHECK_THROWS_WITH(worlds.choose_controls(twice), "choose_controls: entries 0 and 2 are of one axis; an axis has one "
                                                    "control");
@@ -189,11 +244,12 @@ TEST_CASE("controls that cannot be are refused, and change nothing")
   worlds.choose_controls(all_kinds);
   const std::vector<uint64_t> before = worlds.state_hashes();
   const float nan = std::numeric_limits<float>::quiet_NaN();
-  CHECK_THROWS_WITH(worlds.set_controls(std::vector<float>{1, 1, 1, 1, nan, 1}),
+  CHECK_THROWS_WITH(worlds.set_controls(std::vector<float>{1, 1, 1, 1, 1, 1, nan, 1, 1, 1}),
                     ContainsSubstring("set_controls: control 1 of world 1 is nan"));
-  CHECK_THROWS_WITH(worlds.set_controls(std::vector<float>{1e12f, 0, 0, 0, 0, 0}),
-                    ContainsSubstring("control 0 of world 0 is 1e+12; -5e+11 to 5e+11 is possible"));
-  CHECK_THROWS_WITH(worlds.set_controls(std::vector<uint32_t>{2}, std::vector<float>{1, 1, 1}),
+  CHECK_THROWS_WITH(
+      worlds.set_controls(std::vector<float>{1e12f, 0, 0, 0, 0, 0, 0, 0, 0, 0}),
+      ContainsSubstring("control 0 of world 0 is 1e+12; at most 5e+11, of its damping 0.5, in size is needed"));
+  CHECK_THROWS_WITH(worlds.set_controls(std::vector<uint32_t>{2}, std::vector<float>{1, 1, 1, 1, 1}),
                     ContainsSubstring("set_controls: world 2 does not exist"));
   CHECK(worlds.scene(0).joints[0].directions[0].force == 0);
   CHECK(worlds.state_hashes() == before);
