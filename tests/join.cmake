@@ -47,7 +47,7 @@ join_tests(other_tests shared "shared/(broadphase|midphase|parallel)/")
 join_tests(other_tests narrowphase "shared/narrowphase/")
 join_tests(other_tests convex "shared/narrowphase/(conservative|convex|cube|gjk|hull|libccd)_")
 join_tests(other_tests tools "tools/(bench|command|diff|embed|plot)/")
-join_tests(other_tests recording_command "tools/command/(bench_left_out|bench_scenes|recording)_test")
+join_tests(other_tests recording_command "tools/command/(bench_controls|bench_left_out|bench_scenes|recording)_test")
 join_tests(other_tests stability "tools/stability/")
 # These compile what their neighbours have under the same names: shared/ in double, and its trees beside the host's.
 set_source_files_properties(shared/narrowphase/convex_reference_test.cpp shared/midphase/subtree_pairs_test.cpp
