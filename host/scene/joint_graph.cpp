@@ -9,6 +9,7 @@
 #include "host/scene/articulation_buffers.h"
 #include "host/scene/articulation_order.h"
 #include "host/scene/joint_buffers.h"
+#include "host/scene/joint_rows.h"
 #include "shared/counts.h"
 
 namespace tandem {

@@ -11,6 +11,7 @@
 #include "host/pipeline/broadphases/broadphase.h"
 #include "host/pipeline/scene_counts.h"
 #include "host/pipeline/setting_rows.h"
+#include "host/runtime/interface/floating_point.h"
 #include "host/runtime/interface/module.h"
 #include "host/runtime/recorder.h"
 #include "host/scene/built.h"

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "host/catalog/catalog.h"
 #include "host/runtime/make_backend.h"
 #include "tools/bench/broadphase_frames.h"
 #include "tools/command/distinct_files.h"

@@ -10,6 +10,7 @@
 #include <tandem/worlds.h>
 
 #include "host/base/random.h"
+#include "host/catalog/catalog.h"
 #include "tools/command/measure.h"
 #include "tools/command/progress.h"
 #include "tools/command/scene_options.h"

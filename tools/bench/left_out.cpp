@@ -14,6 +14,7 @@
 
 #include "host/base/printable.h"
 #include "host/runtime/interface/features.h"
+#include "host/runtime/memory.h"
 #include "host/scene/specialise.h"
 #include "host/world/forced_features.h"
 #include "tools/command/distinct_files.h"

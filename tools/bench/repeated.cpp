@@ -9,6 +9,7 @@
 #include <tandem/load_scene.h>
 #include <tandem/world.h>
 
+#include "host/catalog/catalog.h"
 #include "tools/bench/primitives.h"
 #include "tools/command/command.h"
 #include "tools/command/measure.h"

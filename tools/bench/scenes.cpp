@@ -15,6 +15,7 @@
 #include "host/base/printable.h"
 #include "host/catalog/catalog.h"
 #include "host/runtime/interface/kernel_list.h"
+#include "host/runtime/memory.h"
 #include "tools/command/distinct_files.h"
 #include "tools/command/marked_table.h"
 #include "tools/command/progress.h"

@@ -10,6 +10,7 @@
 #include <tandem/load_scene.h>
 
 #include "host/base/printable.h"
+#include "host/catalog/catalog.h"
 #include "host/io/input_file.h"
 #include "host/io/json/reader.h"
 #include "tools/command/distinct_files.h"

@@ -9,6 +9,7 @@
 
 #include <tandem/world.h>
 
+#include "host/catalog/catalog.h"
 #include "tools/command/scene_options.h"
 
 namespace tandem {

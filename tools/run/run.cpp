@@ -9,6 +9,7 @@
 #include <tandem/world.h>
 
 #include "host/base/printable.h"
+#include "host/catalog/catalog.h"
 #include "host/geometry/geometry.h"
 #include "host/io/glb/animation.h"
 #include "host/runtime/memory.h"

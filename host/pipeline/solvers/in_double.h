@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "host/runtime/memory.h" /* before, because what it has of shared/ stands outside of the namespace */
+
 #define TANDEM_REFERENCE
 namespace tandem::in_double {
 #include "shared/platform.h"
