@@ -40,6 +40,15 @@ struct UsedAxis {
 TANDEM_API std::vector<UsedAxis> axes_used_by(const Joint &joint);
 /* Whether it only keeps its bodies from colliding. */
 TANDEM_API bool holds_nothing(const Joint &joint);
+/* directions[axis], or rotations[axis - 3]. */
+inline JointAxis &axis_of(Joint &joint, uint32_t axis)
+{
+  return axis < 3 ? joint.directions[axis] : joint.rotations[axis - 3];
+}
+inline const JointAxis &axis_of(const Joint &joint, uint32_t axis)
+{
+  return axis < 3 ? joint.directions[axis] : joint.rotations[axis - 3];
+}
 /* The kind of directions[axis], or of rotations[axis - 3]; JOINT_AXIS_NONE: it is not free. */
 uint32_t kind_of_axis(const Joint &joint, size_t axis);
 

@@ -323,15 +323,6 @@ std::vector<uint32_t> World::Implementation::slots_of_joints(const char *call, s
   return found;
 }
 
-namespace {
-
-JointAxis &axis_of(Joint &joint, uint32_t axis)
-{
-  return axis < 3 ? joint.directions[axis] : joint.rotations[axis - 3];
-}
-
-} // namespace
-
 /* Messages of a batch name the world, which is found only where one is needed. */
 template <class Check>
 void World::Implementation::check_in_world(const Joint &joint, uint32_t slot, const Check &check) const

@@ -16,15 +16,6 @@
 namespace tandem {
 namespace {
 
-JointAxis &axis_in(Joint &joint, uint32_t axis)
-{
-  return axis < 3 ? joint.directions[axis] : joint.rotations[axis - 3];
-}
-const JointAxis &axis_in(const Joint &joint, uint32_t axis)
-{
-  return axis < 3 ? joint.directions[axis] : joint.rotations[axis - 3];
-}
-
 /* What the control sets. */
 float &value_in(JointAxis &axis, Control what)
 {
@@ -70,7 +61,7 @@ void check_control(const Joint &joint, bool in_tree, const ControlledAxis &contr
   if (in_tree && !has_rows_besides_tree(joint) && !is_axis_of_tree(joint, control.axis))
     fail(fmt::format("axis {} is one of a ball of an articulation; hinges and sliders have controls there",
                      control.axis));
-  if (const char *lack = lack_of(axis_in(joint, control.axis), control.what))
+  if (const char *lack = lack_of(axis_of(joint, control.axis), control.what))
     fail(fmt::format("axis {} {}", control.axis, lack));
 }
 
@@ -128,7 +119,7 @@ Worlds::Controls::Target Worlds::Controls::target_of(const World::Implementation
                                                      const ControlledAxis &control)
 {
   const Joint &whole = engine.scene.joints[joint];
-  JointAxis axis = axis_in(whole, control.axis);
+  JointAxis axis = axis_of(whole, control.axis);
   Target target{joint, 0, 0, value_in(axis, control.what), 0, 0};
   value_in(axis, control.what) = 0;
   const auto rows = row_of_axis(axis);
@@ -213,7 +204,7 @@ void Worlds::Controls::write_scene(Scene &scene)
   if (!scene_is_behind_) return;
   for (size_t i = 0; i < targets_.size(); ++i) {
     const ControlledAxis &control = chosen_[i % count()];
-    value_in(axis_in(scene.joints[targets_[i].joint], control.axis), control.what) = targets_[i].value;
+    value_in(axis_of(scene.joints[targets_[i].joint], control.axis), control.what) = targets_[i].value;
   }
   scene_is_behind_ = false;
 }

@@ -22,13 +22,13 @@
 #include "shared/articulations/spatial.h"
 
 typedef struct {
-  GLOBAL const uint *code;   /* a word a link: joint_types.h */
-  GLOBAL const float4 *link; /* LINK_ROWS a link */
+  GLOBAL const uint *code;    /* a word a link: joint_types.h */
+  GLOBAL const float4 *link;  /* LINK_ROWS a link */
   GLOBAL const float4 *range; /* a row a link: lower, upper, target, target speed */
-  GLOBAL float4 *state;      /* STATE_ROWS a link */
-  GLOBAL float4 *root;       /* ROOT_ROWS a tree */
-  GLOBAL float4 *work;       /* WORK_ROWS a link */
-  GLOBAL uint *next;         /* a word a link, of which the substep alone knows */
+  GLOBAL float4 *state;       /* STATE_ROWS a link */
+  GLOBAL float4 *root;        /* ROOT_ROWS a tree */
+  GLOBAL float4 *work;        /* WORK_ROWS a link */
+  GLOBAL uint *next;          /* a word a link, of which the substep alone knows */
   uint_lanes block, item, stride, links;
   uint_lanes number; /* of the tree */
   uint most_links;   /* of any lane */

@@ -10,7 +10,7 @@ namespace {
 
 using namespace physics_tests;
 
-/* Chains of hinges that are driven while they fall on each other, a world's half of them an articulation. */
+/* A chain on hinges that falls to the ground while they are driven. */
 Scene driven_chain(bool in_tree)
 {
   Scene scene = empty_scene();

@@ -223,7 +223,6 @@ TEST_CASE("controls that cannot be are refused, and change nothing")
   add_body(scene, BodyType::dynamic, sphere_shape(0.1f), {5, 0, 0});
   Joint &ball = connect(scene, JointType::ball, no_body, 5, {5, 0, 1});
   for (JointAxis &axis : ball.rotations) axis.stiffness = axis.damping = 1;
-  ball.type = JointType::ball;
   scene.articulations.push_back({});
   scene.articulations.back().joints = {4};
   Worlds worlds(scene, 2, {}, {"serial", {}});
