@@ -92,6 +92,9 @@ SHARED item_index operator+(item_index i, uint32_t offset) { return {i.first + o
 SHARED item_index operator+(uint32_t offset, item_index i) { return {i.first + offset}; }
 SHARED uint_lanes operator*(item_index i, uint32_t factor) { return uint_lanes(i) * uint_lanes(factor); }
 
+/* A function with such a parameter is a template. */
+#define any_index auto
+
 SHARED real to_real(uint_lanes x) { return real(__builtin_convertvector((int_vector)x.v, float_vector)); }
 SHARED uint_lanes real_bits(real x) { return uint_lanes((uint_vector)x.v); }
 SHARED real real_of_bits(uint_lanes bits) { return real((float_vector)bits.v); }

@@ -544,7 +544,9 @@ typedef struct {
   BUFFER(link_state, float4, state)                                                                                    \
   BUFFER(link_root, float4, root)                                                                                      \
   BUFFER(link_work, float4, work)                                                                                      \
-  BUFFER(link_next, uint, next)
+  BUFFER(link_next, uint, next)                                                                                        \
+  BUFFER(tree_contact, uint, contact)                                                                                  \
+  BUFFER(tree_colors, uint, colors)
 
 /* Bodies where and as fast as a substep has taken them. */
 #define GROUP_moved_bodies(BUFFER)                                                                                     \

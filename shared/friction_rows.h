@@ -12,7 +12,7 @@
 #include "shared/parameters.h"
 
 /* Along the two tangents and about the normal; then the radius of the patch. */
-SHARED vec4 load_friction(GLOBAL const Parameters *parameters, GLOBAL const float4 *friction_impulse, item_index i)
+SHARED vec4 load_friction(GLOBAL const Parameters *parameters, GLOBAL const float4 *friction_impulse, any_index i)
 {
   real zero = (real)parameters->zero;
   return HAS_FEATURE(parameters, FRICTION) ? load_float4(friction_impulse, i) : make_vec4(zero, zero, zero, zero);

@@ -41,24 +41,24 @@ SHARED vec4 load_manifold_point(GLOBAL const float4 *manifold_points, point_plan
 }
 
 SHARED real load_of_point(GLOBAL const memory_real *constraint_points, point_planes planes, uint k, uint number,
-                          item_index i)
+                          any_index i)
 {
   return k < planes.points ? load_real(constraint_points, planes.stride * (k * POINT_NUMBERS + number) + i)
                            : (real)R(0.0);
 }
-SHARED vec3 load_arm_of_a(GLOBAL const memory_real *constraint_points, point_planes planes, uint k, item_index i)
+SHARED vec3 load_arm_of_a(GLOBAL const memory_real *constraint_points, point_planes planes, uint k, any_index i)
 {
   return make_vec3(load_of_point(constraint_points, planes, k, POINT_X, i),
                    load_of_point(constraint_points, planes, k, POINT_Y, i),
                    load_of_point(constraint_points, planes, k, POINT_Z, i));
 }
 /* At the start of the step. */
-SHARED real load_separation(GLOBAL const memory_real *constraint_points, point_planes planes, uint k, item_index i)
+SHARED real load_separation(GLOBAL const memory_real *constraint_points, point_planes planes, uint k, any_index i)
 {
   return load_of_point(constraint_points, planes, k, POINT_SEPARATION, i);
 }
 /* The effective mass along the normal, which is 0 for a point that is not used. */
-SHARED real load_point_mass(GLOBAL const memory_real *constraint_points, point_planes planes, uint k, item_index i)
+SHARED real load_point_mass(GLOBAL const memory_real *constraint_points, point_planes planes, uint k, any_index i)
 {
   return load_of_point(constraint_points, planes, k, POINT_MASS, i);
 }

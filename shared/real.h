@@ -6,6 +6,7 @@
  *   choose(m, a, b)          m ? a : b, both sides evaluated
  *   item_index               the index of an item (lanes: the first of a run of items, so that memory is read in
  *                            order); the sum with a uint is an item_index, any other arithmetic makes a uint_lanes
+ *   any_index                either of both, as a parameter: an item, or one that each lane chooses
  *   any_of(m)                some item of the group has it (uniform, so `if` may use it)
  *   load*, store*, *_if      memory by item index; _if writes only where the mask holds; listed: by an index from a
  *                            list, whose lanes are mostly neighbours in memory
@@ -37,6 +38,7 @@ typedef float memory_real;
 typedef memory_real real;
 typedef uint uint_lanes;
 typedef uint item_index;
+typedef uint any_index;
 typedef int mask;
 
 typedef struct {

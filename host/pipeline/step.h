@@ -44,6 +44,8 @@ struct StepPlan {
   uint32_t coupling_colors = 0;   /* the same of couplings */
   uint32_t rounds = 16;
   SettledColors settled;
+  bool links_alone = false;                  /* no body moves but links, so each contact has a link */
+  bool trees_apart = false;                  /* nor has a world two articulations */
   bool apart = false;                        /* no pair was found for so long that a step looks for pairs alone */
   SubstepChoice substeps;                    /* if the world chooses them itself */
   uint32_t hits = 0;                         /* that a cast has left on the device for kernels of modules */

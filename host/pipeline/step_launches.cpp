@@ -46,8 +46,10 @@ void StepLaunches::run_pairs(Kernel kernel, uint32_t first_kind, uint32_t last_k
   launcher_.launch({kernel, {}, values, first, last, expected});
 }
 
+/* A contact of a link is solved by solve_tree_contacts or for_each_link_color. */
 void StepLaunches::launch_color(Kernel kernel, uint32_t color, const Values &values)
 {
+  if (has_links() && plan_.links_alone) return;
   const uint32_t first = COLOR_START + color, begins = limited_ ? WORLD_COLOR_START + color : first;
   const uint32_t end = has_links() ? LINK_COLOR_START + color : first + 1;
   launcher_.launch({kernel, {}, values, begins, end, plan_.known[end] - plan_.known[first]});
@@ -73,13 +75,21 @@ void StepLaunches::solve_link_joints(uint32_t pass)
   if (plan_.link_joint_colors > COLOR_LIMIT) run(Kernel::solve_link_joints_in_order, {pass});
 }
 
+/* Trees of which a contact has another body that moves, or no colour: shared/articulations/tree_contacts.h. */
+void StepLaunches::solve_mixed_trees(uint32_t pass)
+{
+  if (plan_.trees_apart && plan_.colors <= LINK_COLORS) return;
+  for (uint32_t color = 0; color < std::min(plan_.colors, LINK_COLORS); ++color)
+    run_range(Kernel::solve_link_contacts, LINK_COLOR_START + color, COLOR_START + color + 1, {pass});
+  if (plan_.colors > LINK_COLORS) run(Kernel::solve_link_contacts_in_order, {pass});
+}
+
 void StepLaunches::for_each_link_color(uint32_t pass)
 {
   if (!has_links()) return;
   if (pass != PASS_BOUNCING) solve_link_joints(pass);
-  for (uint32_t color = 0; color < std::min(plan_.colors, LINK_COLORS); ++color)
-    run_range(Kernel::solve_link_contacts, LINK_COLOR_START + color, COLOR_START + color + 1, {pass});
-  if (plan_.colors > LINK_COLORS) run(Kernel::solve_link_contacts_in_order, {pass});
+  run(Kernel::solve_tree_contacts, {pass});
+  solve_mixed_trees(pass);
   if (pass != PASS_WARM_STARTING) run(Kernel::solve_articulations, {pass});
 }
 

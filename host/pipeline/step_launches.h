@@ -72,6 +72,7 @@ public:
 private:
   void launch_color(Kernel kernel, uint32_t color, const Values &values);
   void solve_link_joints(uint32_t pass);
+  void solve_mixed_trees(uint32_t pass);
 
   Launcher &launcher_;
   const StepPlan &plan_;

@@ -278,6 +278,7 @@ std::vector<BodyId> World::Implementation::create(std::span<const Body> given)
     throw;
   }
   added.keep();
+  std::for_each(arrival.slots.begin(), arrival.slots.end(), [&](uint32_t slot) { plan_for_body(slot); });
   for (size_t i = 0; i < ids.size(); ++i) {
     ids[i] = slots.id_of(arrival.slots[i]);
     if (given[i].type == BodyType::dynamic) ++awake_dynamics;

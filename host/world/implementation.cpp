@@ -75,6 +75,9 @@ World::Implementation::Implementation(Beginning beginning, const Placement &plac
   plan.joint_colors = joint_order.colors();
   plan.link_joint_colors = joint_order.link_colors();
   plan.coupling_colors = coupling_graph.colors;
+  plan.links_alone = true;
+  plan.trees_apart = scene.articulations.size() <= std::max(special.worlds, 1u);
+  for (uint32_t slot = 0; slot < scene.bodies.size(); ++slot) plan_for_body(slot);
   counted_bodies = special.awake;
   plan.capacity_cells = cells_for(plan.bodies);
   plan.capacity_pairs = plan.capacity_candidates = beginning.pairs;
@@ -144,6 +147,7 @@ void World::Implementation::record_kernels()
 {
   plan.apart = false;
   StepPlan all = plan;
+  all.links_alone = all.trees_apart = false;
   all.colors = std::max(plan.colors, COLOR_LIMIT);
   all.joint_colors = joint_graph.colors; /* whoever sleeps */
   all.link_joint_colors = joint_graph.link_colors;
@@ -299,6 +303,13 @@ void World::Implementation::stage_counts(StagedUploads &uploads) const
   uploads.add_count(CAPACITY_CELLS, plan.capacity_cells);
   uploads.add_count(CAPACITY_POINTS, points_of_pair(special.features));
   uploads.add_count(CAPACITY_CANDIDATES, plan.capacity_candidates);
+}
+
+/* A plan for links alone ends with the first other body that moves; none begins later. */
+void World::Implementation::plan_for_body(uint32_t slot) noexcept
+{
+  if (scene.bodies[slot].type == BodyType::dynamic && !links.has_body(slot))
+    plan.links_alone = plan.trees_apart = false;
 }
 
 void World::Implementation::number_bodies()

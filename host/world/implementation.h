@@ -107,6 +107,7 @@ struct World::Implementation {
   void stage_tables(StagedUploads &uploads);
   void stage_counts(StagedUploads &uploads) const;
   void number_bodies();
+  void plan_for_body(uint32_t slot) noexcept;
   bool module_applies_forces() const;
   void guess_counts() noexcept;
   QueryTarget query_target();

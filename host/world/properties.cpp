@@ -172,6 +172,7 @@ void World::Implementation::set_properties(std::span<const BodyId> ids, std::spa
     throw;
   }
   placed.keep();
+  std::for_each(changed.slots.begin(), changed.slots.end(), [&](uint32_t slot) { plan_for_body(slot); });
   ring.forget("properties of bodies were changed");
   color_anew(freed, retyped);
   for (const uint32_t slot : changed.slots)

@@ -16,6 +16,7 @@
 #include "shared/solve/contact.h"
 
 typedef struct {
+  mask wanted; /* others write nothing */
   pushed_pair ends;
   contact shape; /* as the bodies alone would have it; the ends have velocities and inertias */
   arm_shift shift;
@@ -23,13 +24,17 @@ typedef struct {
   delta_pose moved;
 } link_contact;
 
-SHARED link_contact load_link_contact(GLOBAL const Parameters *parameters, read_contacts contacts, read_patches patches,
-                                      read_turning_bodies bodies, read_links links, write_link_states states,
-                                      GLOBAL const float4 *solver_velocity, uint pass, item_index i)
+SHARED link_contact load_link_contact(mask wanted, GLOBAL const Parameters *parameters, read_contacts contacts,
+                                      read_patches patches, read_turning_bodies bodies, read_links links,
+                                      write_link_states states, GLOBAL const float4 *solver_velocity, uint pass,
+                                      uint_lanes i)
 {
   link_contact c;
+  c.wanted = wanted;
   c.shape = load_contact(parameters, contacts, solver_velocity, bodies.inertia, i);
-  mask links_a = is_link(links.of_body, c.shape.a), links_b = is_link(links.of_body, c.shape.b);
+  c.shape.velocity_a.inverse_mass = zero_if(!wanted, c.shape.velocity_a.inverse_mass);
+  c.shape.velocity_b.inverse_mass = zero_if(!wanted, c.shape.velocity_b.inverse_mass);
+  mask links_a = wanted & is_link(links.of_body, c.shape.a), links_b = wanted & is_link(links.of_body, c.shape.b);
   pushed_side a =
       pushed_side_of(links_a, links, states, c.shape.a, c.shape.velocity_a, c.shape.inertia_a, c.shape.locks_a, pass);
   pushed_side b =
@@ -95,14 +100,14 @@ typedef struct {
 } link_normals;
 
 SHARED row_of_pair load_normal_row(const link_contact *c, read_patches patches, point_planes planes, uint k,
-                                   item_index i)
+                                   uint_lanes i)
 {
   vec3 arm_a = load_arm_of_a(patches.points, planes, k, i), arm_b = subtract(arm_a, xyz(c->offset));
   return row_along(add(arm_a, c->shift.a), add(arm_b, c->shift.b), c->shape.normal);
 }
 
 SHARED link_normals load_link_normals(const link_contact *c, read_patches patches, point_planes planes, vec4 impulses,
-                                      item_index i)
+                                      uint_lanes i)
 {
   link_normals s;
   for (uint k = 0; k < 4u; ++k) {
@@ -206,19 +211,19 @@ SHARED void solve_rounds_of_normals(GLOBAL const Parameters *parameters, link_co
 /* Rows of impulses are read and written by the kernels below as those of solve/contact.h do. */
 SHARED void solve_link_contact(GLOBAL const Parameters *parameters, link_contact *c, read_patches patches,
                                point_planes planes, write_contact_impulses impulses, GLOBAL float4 *warm_start_impulse,
-                               uint pass, item_index i)
+                               uint pass, uint_lanes i)
 {
   vec4 normal = load_float4(impulses.normal, i), friction = load_friction(parameters, impulses.friction, i);
   mask rough = c->shape.friction > R(0.0);
   if (HAS_FEATURE(parameters, FRICTION) && any_of(rough)) {
     friction = solve_link_friction_if(rough, c, friction, normal);
-    store_float4(impulses.friction, i, friction);
+    store_float4_if(c->wanted, impulses.friction, i, friction);
   }
   link_normals s = load_link_normals(c, patches, planes, normal, i);
   solve_rounds_of_normals(parameters, c, &s, load_real(patches.slop, i), pass == (uint)PASS_BIASED ? 1u : 0u);
   normal = impulses_of_normals(&s);
-  store_float4(impulses.normal, i, normal);
-  keep_highest_impulses(parameters, impulses.restitution, planes.stride, normal, i);
+  store_float4_if(c->wanted, impulses.normal, i, normal);
+  keep_highest_impulses_if(c->wanted, parameters, impulses.restitution, planes.stride, normal, i);
   if (pass != (uint)PASS_RELAXING) return;
   add_warm_start_of_pair(&c->ends, row_of_impulses(c, s.row, normal, friction), parameters->inverse_substep,
                          warm_start_impulse);
@@ -226,7 +231,7 @@ SHARED void solve_link_contact(GLOBAL const Parameters *parameters, link_contact
 
 SHARED void warm_start_link_contact(GLOBAL const Parameters *parameters, link_contact *c, read_patches patches,
                                     point_planes planes, write_contact_impulses impulses,
-                                    GLOBAL float4 *warm_start_impulse, item_index i)
+                                    GLOBAL float4 *warm_start_impulse, uint_lanes i)
 {
   row_of_pair normals[4];
   for (uint k = 0; k < 4u; ++k) normals[k] = load_normal_row(c, patches, planes, k, i);
@@ -237,7 +242,7 @@ SHARED void warm_start_link_contact(GLOBAL const Parameters *parameters, link_co
 
 /* Contacts of which no point bounces stay as they are. */
 SHARED void bounce_link_contact(link_contact *c, read_patches patches, point_planes planes,
-                                write_contact_impulses impulses, item_index i)
+                                write_contact_impulses impulses, uint_lanes i)
 {
   vec4 target_velocity = load_float4(impulses.restitution, i),
        highest = load_float4(impulses.restitution, planes.stride + i);
@@ -249,7 +254,31 @@ SHARED void bounce_link_contact(link_contact *c, read_patches patches, point_pla
   for (uint round = 0; round < RESTITUTION_ROUNDS; ++round) bounce_link_normals(c, &s, target_velocity, highest);
   c->ends.a = choose_side(bounces, c->ends.a, a);
   c->ends.b = choose_side(bounces, c->ends.b, b);
-  store_float4_if(bounces, impulses.normal, i, impulses_of_normals(&s));
+  store_float4_if(c->wanted & bounces, impulses.normal, i, impulses_of_normals(&s));
+}
+
+/* Whether contacts of the tree are solved by colour: tree_contacts.h. */
+SHARED mask is_mixed(write_link_states states, uint_lanes tree)
+{
+  return load_uint(states.colors, TREE_COLOR_WORDS * tree + 2u) != 0u;
+}
+
+SHARED void solve_link_contact_if(mask wanted, GLOBAL const Parameters *parameters, read_contacts contacts,
+                                  read_patches patches, read_turning_bodies bodies, read_links links,
+                                  GLOBAL const uint *counts, write_link_states states,
+                                  write_contact_impulses contact_impulses, GLOBAL float4 *solver_velocity,
+                                  GLOBAL float4 *warm_start_impulse, uint pass, uint_lanes i)
+{
+  point_planes planes = planes_of(counts);
+  link_contact c =
+      load_link_contact(wanted, parameters, contacts, patches, bodies, links, states, solver_velocity, pass, i);
+  if (pass == (uint)PASS_WARM_STARTING) {
+    warm_start_link_contact(parameters, &c, patches, planes, contact_impulses, warm_start_impulse, i);
+    return;
+  }
+  if (pass == (uint)PASS_BOUNCING) bounce_link_contact(&c, patches, planes, contact_impulses, i);
+  else solve_link_contact(parameters, &c, patches, planes, contact_impulses, warm_start_impulse, pass, i);
+  store_pair(&c.ends, solver_velocity);
 }
 
 SHARED void solve_link_contacts_item(GLOBAL const Parameters *parameters, read_contacts contacts, read_patches patches,
@@ -258,15 +287,11 @@ SHARED void solve_link_contacts_item(GLOBAL const Parameters *parameters, read_c
                                      GLOBAL float4 *solver_velocity, GLOBAL float4 *warm_start_impulse, uint pass,
                                      item_index i)
 {
-  point_planes planes = planes_of(counts);
-  link_contact c = load_link_contact(parameters, contacts, patches, bodies, links, states, solver_velocity, pass, i);
-  if (pass == (uint)PASS_WARM_STARTING) {
-    warm_start_link_contact(parameters, &c, patches, planes, contact_impulses, warm_start_impulse, i);
-    return;
-  }
-  if (pass == (uint)PASS_BOUNCING) bounce_link_contact(&c, patches, planes, contact_impulses, i);
-  else solve_link_contact(parameters, &c, patches, planes, contact_impulses, warm_start_impulse, pass, i);
-  store_pair(&c.ends, solver_velocity);
+  uint_lanes a = load_uint(contacts.a, i), b = load_uint(contacts.b, i), link = choose(is_link(links.of_body, a), a, b);
+  mask wanted = is_mixed(states, articulation_of_body(links.of_body, link));
+  if (any_of(wanted))
+    solve_link_contact_if(wanted, parameters, contacts, patches, bodies, links, counts, states, contact_impulses,
+                          solver_velocity, warm_start_impulse, pass, i);
 }
 
 #ifndef TANDEM_LANES /* ITEM kernels take one item at a time */

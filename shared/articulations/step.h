@@ -18,6 +18,8 @@ SHARED void begin_articulations_item(GLOBAL const Parameters *parameters, read_l
                                      write_link_states states, write_moved_bodies moved, item_index i)
 {
   articulation t = articulation_at(links, states, (uint_lanes)i);
+  for (uint word = 0u; word < TREE_COLOR_WORDS; ++word)
+    store_uint(states.colors, TREE_COLOR_WORDS * (uint_lanes)i + word, (uint_lanes)0u);
   read_articulation(links, bodies, &t);
   prepare_tree(&t, parameters->substep);
   write_velocities(links, &t, moved.velocity);

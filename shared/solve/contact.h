@@ -28,7 +28,7 @@ typedef struct {
 } contact;
 
 SHARED contact load_contact(GLOBAL const Parameters *parameters, read_contacts contacts,
-                            GLOBAL const float4 *solver_velocity, GLOBAL const float4 *solver_inertia, item_index i)
+                            GLOBAL const float4 *solver_velocity, GLOBAL const float4 *solver_inertia, any_index i)
 {
   contact c;
   c.a = load_uint(contacts.a, i);
@@ -379,6 +379,15 @@ SHARED void keep_highest_impulses(GLOBAL const Parameters *parameters, GLOBAL fl
   if (HAS_FEATURE(parameters, RESTITUTION))
     store_float4(constraint_restitution, stride + i,
                  highest_impulses(load_float4(constraint_restitution, stride + i), normal_impulses));
+}
+
+SHARED void keep_highest_impulses_if(mask wanted, GLOBAL const Parameters *parameters,
+                                     GLOBAL float4 *constraint_restitution, uint stride, vec4 normal_impulses,
+                                     uint_lanes i)
+{
+  if (HAS_FEATURE(parameters, RESTITUTION))
+    store_float4_if(wanted, constraint_restitution, stride + i,
+                    highest_impulses(load_float4(constraint_restitution, stride + i), normal_impulses));
 }
 
 /* Solves the contacts of an impact further, after the pass that all contacts get. Everything is loaded once more,

@@ -24,6 +24,26 @@ uint64_t hash_of_trees(const Scene &scene, int steps, const Settings &settings, 
   return world.state_hash();
 }
 
+/* A chain of links that lie on the ground, with a body far away, and a stone that does not move above the chain. */
+Scene lone_chain(uint32_t links, BodyType far = BodyType::fixed)
+{
+  Scene scene = tree_crowd(1, 0, links);
+  add_body(scene, far, sphere_shape(0.1f), {1000, 1000, 0});
+  add_body(scene, BodyType::fixed, sphere_shape(0.1f), {0.42 * 5 - 2, 0.6, -1.5});
+  return scene;
+}
+
+void require_equal_links(World &world, World &other, uint32_t links)
+{
+  const std::vector<BodyState> one = world.bodies(), two = other.bodies();
+  for (uint32_t body = 0; body <= links; ++body) {
+    INFO("body " << body);
+    REQUIRE(one[body].position == two[body].position);
+    REQUIRE(one[body].linear_velocity == two[body].linear_velocity);
+    REQUIRE(one[body].angular_velocity == two[body].angular_velocity);
+  }
+}
+
 } // namespace
 
 TEST_CASE("parity on CPU: articulations in a heap, held and free, past the last colour")
@@ -36,6 +56,45 @@ TEST_CASE("parity on CPU: articulations in a heap, held and free, past the last 
   Settings in_sequence;
   in_sequence.batching = Batching::sequential;
   require_parity(tree_crowd(3, 6, 0), cpu_backends(), 10, in_sequence);
+}
+
+TEST_CASE("parity on CPU: a tree that alone moves, below the last colour and past it")
+{
+  for (const uint32_t links : {40u, 75u}) require_parity(lone_chain(links), cpu_backends(), 25, watched());
+  require_parity("humanoid:n=1,stiffness=0,height=0.3", cpu_backends(), 60);
+}
+
+TEST_CASE("a tree that alone moves has the bits that it has while another body moves far away")
+{
+  for (const uint32_t links : {40u, 75u}) {
+    World alone(lone_chain(links), {}, {"serial", {}, false});
+    World beside(lone_chain(links, BodyType::dynamic), {}, {"serial", {}, false});
+    run(alone, 40);
+    run(beside, 40);
+    CHECK(alone.launches() < beside.launches());
+    require_equal_links(alone, beside, links);
+  }
+}
+
+TEST_CASE("a body that comes to move beside a tree that alone moved meets it as if others had always moved")
+{
+  constexpr uint32_t links = 20;
+  for (const bool created : {false, true}) {
+    World first_alone(lone_chain(links), {}, {"serial", {}, false}),
+        never_alone(lone_chain(links, BodyType::dynamic), {}, {"tbb:threads=2", {}, false});
+    for (World *world : {&first_alone, &never_alone}) {
+      run(*world, 10);
+      Body stone = world->scene().bodies.back();
+      stone.type = BodyType::dynamic;
+      stone.position[0] += 0.84; /* above another link */
+      if (created) world->create_body(stone);
+      else world->set_type(world->body_ids().back(), BodyType::dynamic);
+      run(*world, 60);
+      CHECK(world->bodies().back().position[1] > 0.25f); /* on the chain, whose links are 0.2 m high */
+      CHECK(world->bodies().back().position[1] < 0.5f);
+    }
+    require_equal_links(first_alone, never_alone, links);
+  }
 }
 
 TEST_CASE("parity on CPU: joints that hold links, whose trees have loops and hang on each other")

@@ -77,6 +77,7 @@ void launch_soft_step(StepLaunches &step)
 {
   MassSplit overflow = MassSplit::overflow_of(step);
   overflow.prepare();
+  if (step.has_links()) step.run(Kernel::list_tree_contacts);
   if (step.has(FEATURE_JOINT_BOUNCES)) step.run(Kernel::follow_limits, {1});
   for (uint32_t substep = 0; substep < step.settings().substeps; ++substep)
     launch_soft_step_substep(step, overflow, substep);
