@@ -17,7 +17,7 @@
 
 /* Records of tree_contact and of tree_colors (tree_contacts.h). */
 #define TREE_COLORS 64u
-#define TREE_COLOR_WORDS 3u
+#define TREE_COLOR_WORDS 4u
 /* Words of articulation_place: block, item, stride (tree.h), and the number of links. */
 #define PLACE_WORDS 4u
 

@@ -263,13 +263,16 @@ SHARED mask is_mixed(write_link_states states, uint_lanes tree)
   return load_uint(states.colors, TREE_COLOR_WORDS * tree + 2u) != 0u;
 }
 
-SHARED void solve_link_contact_if(mask wanted, GLOBAL const Parameters *parameters, read_contacts contacts,
-                                  read_patches patches, read_turning_bodies bodies, read_links links,
-                                  GLOBAL const uint *counts, write_link_states states,
-                                  write_contact_impulses contact_impulses, GLOBAL float4 *solver_velocity,
-                                  GLOBAL float4 *warm_start_impulse, uint pass, uint_lanes i)
+/* Contact i, or none: INDEX_NONE. */
+SHARED void solve_link_contact_at(GLOBAL const Parameters *parameters, read_contacts contacts, read_patches patches,
+                                  read_turning_bodies bodies, read_links links, GLOBAL const uint *counts,
+                                  write_link_states states, write_contact_impulses contact_impulses,
+                                  GLOBAL float4 *solver_velocity, GLOBAL float4 *warm_start_impulse, uint pass,
+                                  uint_lanes i)
 {
   point_planes planes = planes_of(counts);
+  mask wanted = i != (uint_lanes)INDEX_NONE;
+  i = choose(wanted, i, (uint_lanes)0u);
   link_contact c =
       load_link_contact(wanted, parameters, contacts, patches, bodies, links, states, solver_velocity, pass, i);
   if (pass == (uint)PASS_WARM_STARTING) {
@@ -290,8 +293,8 @@ SHARED void solve_link_contacts_item(GLOBAL const Parameters *parameters, read_c
   uint_lanes a = load_uint(contacts.a, i), b = load_uint(contacts.b, i), link = choose(is_link(links.of_body, a), a, b);
   mask wanted = is_mixed(states, articulation_of_body(links.of_body, link));
   if (any_of(wanted))
-    solve_link_contact_if(wanted, parameters, contacts, patches, bodies, links, counts, states, contact_impulses,
-                          solver_velocity, warm_start_impulse, pass, i);
+    solve_link_contact_at(parameters, contacts, patches, bodies, links, counts, states, contact_impulses,
+                          solver_velocity, warm_start_impulse, pass, choose(wanted, i, (uint_lanes)INDEX_NONE));
 }
 
 #ifndef TANDEM_LANES /* ITEM kernels take one item at a time */

@@ -2,7 +2,12 @@
  *
  *      tree_contact     tree 0 | 4  7  -  9  - ..      the contact of each colour, of 64
  *                       tree 1 | 5  -  8  -  - ..
- *      tree_colors      tree 0 | 0b1011  0  0          a bit for each colour in use, in two words; is it mixed
+ *      tree_colors      tree 0 | 0b1011  0  0  -       a bit for each colour in use, in two words; is it mixed
+ *
+ *      order_tree_contacts
+ *      tree_contact     tree 0 | 4  7  9 ..            in the order of the colours, without gaps, so that trees which
+ *                       tree 1 | 5  8  ..              a device solves side by side each have one to solve
+ *      tree_colors      tree 0 | 0b1011  0  0  3       how many; 0 of a mixed tree
  *
  * Contacts within one tree, and with what does not move, concern no other tree. An item a tree solves them one after
  * another in the order of their colours, which they would have in launches by colour, so the bits are the same: a tree
@@ -60,6 +65,18 @@ SHARED void list_tree_contacts_item(read_contacts contacts, read_links links, GL
   states.contact[TREE_COLORS * tree + color] = i;
   ATOMIC_OR(states.colors + TREE_COLOR_WORDS * tree + (color >> 5u), 1u << (color & 31u));
 }
+
+/* An item is a tree. */
+SHARED void order_tree_contacts_item(write_link_states states, uint i)
+{
+  GLOBAL uint *colors = states.colors + TREE_COLOR_WORDS * i;
+  GLOBAL uint *contact = states.contact + TREE_COLORS * i;
+  uint listed = 0u;
+  for (uint word = 0u; word < 2u; ++word)
+    for (uint color = 32u * word, left = colors[word]; left != 0u; ++color, left >>= 1u)
+      if (left & 1u) contact[listed++] = contact[color];
+  colors[3] = colors[2] == 0u ? listed : 0u;
+}
 #endif
 
 /* An item is a tree. */
@@ -69,17 +86,11 @@ SHARED void solve_tree_contacts_item(GLOBAL const Parameters *parameters, read_c
                                      GLOBAL float4 *solver_velocity, GLOBAL float4 *warm_start_impulse, uint pass,
                                      item_index i)
 {
-  uint_lanes tree = i;
-  mask own = !is_mixed(states, tree);
-  for (uint word = 0u; word < 2u; ++word) {
-    uint_lanes left = choose(own, load_uint(states.colors, TREE_COLOR_WORDS * tree + word), (uint_lanes)0u);
-    for (uint color = 32u * word; any_of(left != 0u); ++color, left = left >> 1u) {
-      mask wanted = (left & 1u) != 0u;
-      if (!any_of(wanted)) continue;
-      uint_lanes at = choose(wanted, load_uint(states.contact, TREE_COLORS * tree + color), (uint_lanes)0u);
-      solve_link_contact_if(wanted, parameters, contacts, patches, bodies, links, counts, states, contact_impulses,
-                            solver_velocity, warm_start_impulse, pass, at);
-    }
+  uint_lanes tree = i, listed = load_uint(states.colors, TREE_COLOR_WORDS * tree + 3u);
+  for (uint n = 0u; any_of(n < listed); ++n) {
+    uint_lanes next = load_uint(states.contact, TREE_COLORS * tree + n);
+    solve_link_contact_at(parameters, contacts, patches, bodies, links, counts, states, contact_impulses,
+                          solver_velocity, warm_start_impulse, pass, choose(n < listed, next, (uint_lanes)INDEX_NONE));
   }
 }
 

@@ -5,8 +5,8 @@
  *                                 pair makes a manifold.
  *
  * b approaches from afar along a line through both centres until it touches (conservative advancement), and is then
- * moved along the normal to the required gap. A first step of a microsecond makes the list of pairs and moves nothing;
- * then the kernel runs repeatedly.
+ * moved along the normal to the required gap. A first step makes the list of pairs and moves nothing, because it
+ * removes no penetration; then the kernel runs repeatedly.
  */
 #include "tools/bench/narrowphase.h"
 
@@ -285,7 +285,7 @@ private:
   static Settings still(const std::string &method)
   {
     Settings settings;
-    settings.step = 1e-6f;
+    settings.push_speed = 0;
     if (!method.empty()) settings.narrowphase = parse_setting<Narrowphase>(method.substr(0, method.find(',')));
     settings.support = method.ends_with(", hill-climbing") ? Support::hill_climbing
                        : method.ends_with(", cube-map")    ? Support::cube_map

@@ -71,13 +71,20 @@ void launch_soft_step_substep(StepLaunches &step, MassSplit &overflow, uint32_t 
   if (step.has(FEATURE_JOINT_BREAKS)) step.run(Kernel::measure_joint_loads, {substep, last});
 }
 
+void list_tree_contacts(StepLaunches &step)
+{
+  if (!step.has_links()) return;
+  step.run(Kernel::list_tree_contacts);
+  step.run(Kernel::order_tree_contacts);
+}
+
 } // namespace
 
 void launch_soft_step(StepLaunches &step)
 {
   MassSplit overflow = MassSplit::overflow_of(step);
   overflow.prepare();
-  if (step.has_links()) step.run(Kernel::list_tree_contacts);
+  list_tree_contacts(step);
   if (step.has(FEATURE_JOINT_BOUNCES)) step.run(Kernel::follow_limits, {1});
   for (uint32_t substep = 0; substep < step.settings().substeps; ++substep)
     launch_soft_step_substep(step, overflow, substep);
