@@ -46,6 +46,19 @@ World::Implementation::Implementation(const Scene &given, const Settings &chosen
     : Implementation(beginning_of(given, chosen), placement)
 {}
 
+namespace {
+
+/* Whether no world has two articulations. The bodies of a batch follow each other by world. */
+bool are_apart(const JointedLinks &links, size_t bodies_of_world)
+{
+  std::set<size_t> worlds;
+  return std::all_of(links.trees.begin(), links.trees.end(), [&](const std::vector<uint32_t> &tree) {
+    return tree.empty() || worlds.insert(tree.front() / bodies_of_world).second;
+  });
+}
+
+} // namespace
+
 World::Implementation::Implementation(Beginning beginning, const Placement &placement, const PlacedBackends *shared)
     : scene(std::move(beginning.scene)), settings(std::move(beginning.settings)),
       settings_in_use(with_substeps(settings, first_choice(settings))),
@@ -76,7 +89,7 @@ World::Implementation::Implementation(Beginning beginning, const Placement &plac
   plan.link_joint_colors = joint_order.link_colors();
   plan.coupling_colors = coupling_graph.colors;
   plan.links_alone = true;
-  plan.trees_apart = scene.articulations.size() <= std::max(special.worlds, 1u);
+  plan.trees_apart = are_apart(links, scene.bodies.size() / std::max(special.worlds, 1u));
   for (uint32_t slot = 0; slot < scene.bodies.size(); ++slot) plan_for_body(slot);
   counted_bodies = special.awake;
   plan.capacity_cells = cells_for(plan.bodies);

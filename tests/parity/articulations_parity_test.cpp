@@ -76,6 +76,29 @@ TEST_CASE("a tree that alone moves has the bits that it has while another body m
   }
 }
 
+TEST_CASE("contacts that a tree has for itself have the bits that they have in launches by colour")
+{
+  constexpr uint32_t links = 40;
+  const auto beside_one_that_hovers = [](BodyType type) {
+    Scene scene = tree_crowd(1, 0, links);
+    for (Body &body : scene.bodies)
+      if (body.type == BodyType::dynamic) body.position[1] = 0.1;
+    Body &hovering = add_body(scene, type, sphere_shape(0.1f), {0.42 * 5 - 2, 0.31, -1.5}); /* 1 cm above a link */
+    hovering.gravity_factor = 0;
+    return scene;
+  };
+  World own(beside_one_that_hovers(BodyType::fixed)), mixed(beside_one_that_hovers(BodyType::dynamic));
+  for (World *world : {&own, &mixed}) {
+    for (int step = 0; step < 40; ++step) {
+      world->add_impulse(world->body_ids()[1 + step % links], {{0.05f, 0, 0.02f}});
+      world->step();
+    }
+    CHECK(world->statistics().manifolds > links); /* the hovering one has a contact, too */
+    CHECK(world->bodies().back().linear_velocity == Vec3{0, 0, 0});
+  }
+  require_equal_links(own, mixed, links);
+}
+
 TEST_CASE("a body that comes to move beside a tree that alone moved meets it as if others had always moved")
 {
   constexpr uint32_t links = 20;
@@ -151,6 +174,35 @@ TEST_CASE("a world with articulations goes on from its snapshot with the same bi
 TEST_CASE("parity on CPU: worlds of a batch with articulations have the bits of worlds alone")
 {
   BatchBesideWorlds(tests::seeded_scenes("humanoid:n=2,stiffness=0,height=0.3", 4), "tbb:threads=3", {}).step(30);
+}
+
+TEST_CASE("parity on CPU: worlds of a batch in which a tree alone moves have the bits of worlds alone")
+{
+  std::vector<Scene> scenes;
+  for (uint32_t world = 0; world < 19; ++world) {
+    scenes.push_back(lone_chain(6));
+    for (Body &body : scenes.back().bodies) body.linear_velocity = {0.1f * float(world), -0.5f, 0};
+  }
+  BatchBesideWorlds(scenes, "tbb:threads=3", {}).step(40);
+}
+
+TEST_CASE("parity on CPU: a world of two trees that touch, in a batch with as many worlds as trees")
+{
+  Scene touching = empty_scene(), parked;
+  add_ground(touching);
+  for (const double height : {0.5, 1.6}) {
+    add_body(touching, BodyType::dynamic, box_shape(0.5f, 0.5f, 0.5f), {0.1 * height, height, 0});
+    touching.articulations.emplace_back().root = uint32_t(touching.bodies.size() - 1);
+  }
+  parked = touching;
+  parked.articulations.clear();
+  for (Body &body : parked.bodies) body.type = BodyType::fixed;
+  BatchBesideWorlds batch({touching, parked}, "tbb:threads=2", {});
+  batch.step(60);
+  World alone(touching);
+  run(alone, 60);
+  CHECK(alone.bodies()[1].position[1] == Approx(0.5).margin(0.02));
+  CHECK(alone.bodies()[2].position[1] == Approx(1.5).margin(0.02));
 }
 
 TEST_CASE("parity on CPU: worlds of a batch whose joints hold links have the bits of worlds alone")
