@@ -321,6 +321,26 @@ TEST_CASE("articulations: a limit stops a pendulum and bears its weight", "[arti
   CHECK(load_state(&tree.t, 0, STATE_ROW_IMPULSE).y * 240 == Approx(10 * 0.5 * std::cos(0.5)).epsilon(0.01));
 }
 
+/* The first arm is driven. The second hangs on it at its centre and stays by its inertia, until the stop of its joint,
+ * far from where it is, takes it along. */
+TEST_CASE("articulations: a stop that another joint's motor brings into reach acts in the same pass", "[articulations]")
+{
+  TreeModel model = rods(2);
+  model.gravity.setZero();
+  LinkModel &driven = model.links[0], &carried = model.links[1];
+  driven.damping = -1; /* DAMPING_OF_MOTOR */
+  driven.target_speed = 1000;
+  carried.from_center.setZero();
+  carried.lower = -0.5;
+  carried.upper = 0.5;
+  Tree tree(model);
+  tree.set(rest_of(model));
+  tree.run(1.0 / 240, 1, 1);
+  CHECK(tree.get().v[0] > 900); /* the motor feels the other arm from the next pass on */
+  CHECK(std::abs(tree.get().v[1]) < 1e-6);
+  CHECK(tree.get().q[1][0] == Approx(-0.5).margin(1e-6));
+}
+
 TEST_CASE("articulations: friction holds a pendulum, or brakes it by its torque", "[articulations]")
 {
   TreeModel model = rods(1);
