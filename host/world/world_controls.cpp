@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include <fmt/format.h>
 
 #include <tandem/error.h>
 
+#include "host/runtime/parts.h"
 #include "host/scene/articulation_order.h"
 #include "host/scene/joint_buffers.h"
 #include "host/scene/joint_rows.h"
@@ -80,6 +82,19 @@ uint32_t place_of_axis(const Joint &joint, uint32_t kind)
   const std::vector<UsedAxis> used = axes_used_by(joint);
   const auto found = std::find_if(used.begin(), used.end(), [&](const UsedAxis &one) { return one.kind == kind; });
   return static_cast<uint32_t>(found - used.begin());
+}
+
+/* Runs function(i) for the world at each place i of the list, many at the same time. A list that is not in order may
+ * have a world twice, of which the later place counts; its worlds are taken one after another. */
+template <class Function> void for_each_world(std::span<const uint32_t> worlds, const Function &function)
+{
+  constexpr size_t worlds_of_part = 256;
+  const bool are_distinct = std::adjacent_find(worlds.begin(), worlds.end(), std::greater_equal<>{}) == worlds.end();
+  const size_t of_part = are_distinct ? worlds_of_part : worlds.size();
+  run_parts((worlds.size() + of_part - 1) / of_part, PartFunction([&](size_t part) {
+              const size_t end = std::min(worlds.size(), (part + 1) * of_part);
+              for (size_t i = part * of_part; i < end; ++i) function(i);
+            }));
 }
 
 } // namespace
@@ -162,19 +177,26 @@ void Worlds::Controls::write_row(const ControlledAxis &control, const Target &ta
   else row.w = target.damping > 0 ? target.value + target.rest : target.value;
 }
 
-void Worlds::Controls::check(std::span<const uint32_t> worlds, std::span<const float> values) const
+void Worlds::Controls::check(uint32_t world, const float *values) const
 {
-  const float *value = values.data();
-  for (const uint32_t world : worlds)
-    for (size_t k = 0; k < count(); ++k, ++value) {
-      const bool is_force = chosen_[k].what == Control::force;
-      const float damping = targets_[world * count() + k].damping;
-      if (std::isfinite(*value) && (!is_force || can_hold(damping, *value))) continue;
-      throw InputError(fmt::format(
-          "set_controls: control {} of world {} is {:g}; {} is needed", k, world, *value,
-          is_force ? fmt::format("at most {:g}, of its damping {:g}, in size", fastest_damper * damping, damping)
-                   : "a finite number"));
-    }
+  for (size_t k = 0; k < count(); ++k) {
+    const bool is_force = chosen_[k].what == Control::force;
+    const float damping = targets_[world * count() + k].damping;
+    if (std::isfinite(values[k]) && (!is_force || can_hold(damping, values[k]))) continue;
+    throw InputError(fmt::format(
+        "set_controls: control {} of world {} is {:g}; {} is needed", k, world, values[k],
+        is_force ? fmt::format("at most {:g}, of its damping {:g}, in size", fastest_damper * damping, damping)
+                 : "a finite number"));
+  }
+}
+
+void Worlds::Controls::write_rows(uint32_t world, const float *values)
+{
+  for (size_t k = 0; k < count(); ++k) {
+    Target &target = targets_[world * count() + k];
+    target.value = values[k];
+    write_row(chosen_[k], target);
+  }
 }
 
 void Worlds::Controls::set(World::Implementation &engine, std::span<const uint32_t> worlds,
@@ -182,17 +204,11 @@ void Worlds::Controls::set(World::Implementation &engine, std::span<const uint32
 {
   if (values.empty()) return;
   read_back(engine);
-  check(worlds, values);
+  for_each_world(worlds, [&](size_t i) { check(worlds[i], &values[i * count()]); });
   engine.settle();
   engine.buffers.make_ready(engine.sizes());
   for (const Rows &rows : rows_) engine.memory.prepare_upload(rows.buffer);
-  const float *value = values.data();
-  for (const uint32_t world : worlds)
-    for (size_t k = 0; k < count(); ++k) {
-      Target &target = targets_[world * count() + k];
-      target.value = *value++;
-      write_row(chosen_[k], target);
-    }
+  for_each_world(worlds, [&](size_t i) { write_rows(worlds[i], &values[i * count()]); });
   ++engine.state;
   scene_is_behind_ = true;
   for (const Rows &rows : rows_)

@@ -49,7 +49,8 @@ private:
     float damping; /* of an axis with a force */
     float rest;    /* of the speed to which the damper pulls: what the other of force and target velocity makes */
   };
-  void check(std::span<const uint32_t> worlds, std::span<const float> values) const;
+  void check(uint32_t world, const float *values) const;
+  void write_rows(uint32_t world, const float *values);
   Target checked_target(const World::Implementation &engine, uint32_t joint, const ControlledAxis &control,
                         const std::string &where);
   Target target_of(const World::Implementation &engine, uint32_t joint, const ControlledAxis &control);

@@ -174,6 +174,28 @@ TEST_CASE("of a world given twice, the last controls count")
   CHECK(worlds.scene(0).joints[0].directions[0].force == 0);
 }
 
+TEST_CASE(
+    "controls of many worlds are set in parts, with the first of what is wrong named, and the last of a world kept")
+{
+  constexpr uint32_t count = 700;
+  Worlds worlds(cart_and_pole(), count, {}, {"tbb:threads=2", {}});
+  worlds.choose_controls(std::vector<ControlledAxis>{{0, 0, Control::force}});
+  const auto force_of = [&](uint32_t world) { return worlds.scene(world).joints[0].directions[0].force; };
+  std::vector<float> values(count);
+  for (uint32_t world = 0; world < count; ++world) values[world] = float(world);
+  worlds.set_controls(values);
+  for (const uint32_t world : {0u, 255u, 256u, 511u, 699u}) CHECK(force_of(world) == float(world));
+  std::vector<float> wrong(count, 1);
+  wrong[690] = wrong[300] = wrong[600] = std::numeric_limits<float>::infinity();
+  CHECK_THROWS_WITH(worlds.set_controls(wrong), ContainsSubstring("control 0 of world 300 is inf"));
+  CHECK(force_of(5) == 5);
+  std::vector<uint32_t> order(count);
+  for (uint32_t i = 0; i < count; ++i) order[i] = i < count - 1 ? count - 1 - i : 650;
+  worlds.set_controls(order, values);
+  CHECK(force_of(650) == 699);
+  CHECK(force_of(10) == 689);
+}
+
 TEST_CASE("controls are refused once their axis has no damping for a force, or a force too large for it")
 {
   const bool in_tree = GENERATE(false, true);
