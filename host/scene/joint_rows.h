@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include <tandem/actuators.h>
 #include <tandem/joints.h>
 
 namespace tandem {
@@ -48,6 +49,15 @@ inline JointAxis &axis_of(Joint &joint, uint32_t axis)
 inline const JointAxis &axis_of(const Joint &joint, uint32_t axis)
 {
   return axis < 3 ? joint.directions[axis] : joint.rotations[axis - 3];
+}
+/* What a control sets of an axis. */
+inline float &controlled_number(JointAxis &axis, Control sets)
+{
+  switch (sets) {
+  case Control::force: return axis.force;
+  case Control::target_position: return axis.target_position;
+  default: return axis.target_velocity;
+  }
 }
 /* The kind of directions[axis], or of rotations[axis - 3]; JOINT_AXIS_NONE: it is not free. */
 uint32_t kind_of_axis(const Joint &joint, size_t axis);

@@ -13,6 +13,7 @@
 #include "host/base/finite_vector.h"
 #include "host/geometry/shape_mass.h"
 #include "host/geometry/triangle_mesh.h"
+#include "host/scene/actuators.h"
 #include "host/scene/articulation_buffers.h"
 #include "host/scene/checker.h"
 #include "shared/body_codes.h"
@@ -228,6 +229,7 @@ void validate(const Scene &scene, const std::string &where)
   for (size_t i = 0; i < scene.bodies.size(); ++i) validate(scene, scene.bodies[i], i, where);
   for (size_t i = 0; i < scene.joints.size(); ++i) validate(scene, scene.joints[i], i, where);
   for (size_t i = 0; i < scene.couplings.size(); ++i) validate(scene, scene.couplings[i], i, where);
+  check_actuators(scene, where);
   check_articulations(scene, where);
 }
 

@@ -469,6 +469,7 @@ void World::Implementation::destroy(std::span<const BodyId> ids)
   distinct_indices("destroy_bodies", ids);
   const std::vector<uint32_t> joints_of_destroyed = joints_of_bodies(slots_of("destroy_bodies", ids));
   refuse_coupled("destroy_bodies", "it cannot be destroyed", joints_of_destroyed);
+  refuse_driven("destroy_bodies", "it cannot be destroyed", joints_of_destroyed);
   refuse_linked("destroy_bodies", "it cannot be destroyed", slots_of("destroy_bodies", ids));
   refuse_articulated("destroy_bodies", "its bodies cannot be destroyed", joints_of_destroyed);
   if (ids.empty()) return;

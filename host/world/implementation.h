@@ -265,6 +265,7 @@ struct World::Implementation {
   /* --- joints that come, change and go: joint_calls.cpp ----------------------------------------------------------- */
   class PlacedJoints;
   void refuse_coupled(const char *call, const char *why, std::span<const uint32_t> joints) const;
+  void refuse_driven(const char *call, const char *why, std::span<const uint32_t> joints) const;
   void disturb_joined(std::span<const Joint> joints);
   void put_joints(std::vector<Joint> joints, const JointSlots &slots_then, std::span<const uint32_t> changed);
   JointGraph graph_with(std::vector<Joint> &joints);

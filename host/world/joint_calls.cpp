@@ -83,6 +83,19 @@ void World::Implementation::refuse_coupled(const char *call, const char *why, st
         throw InputError(fmt::format("{}: joint {}: {}, because coupling {} needs it", call, joint, why, k));
 }
 
+/* Another joint may come to stand in the place of one that is destroyed, and would be driven in its stead. */
+void World::Implementation::refuse_driven(const char *call, const char *why, std::span<const uint32_t> joints) const
+{
+  for (size_t k = 0; k < scene.actuators.size(); ++k) {
+    const uint32_t joint = scene.actuators[k].joint;
+    if (std::find(joints.begin(), joints.end(), joint) != joints.end())
+      throw InputError(
+          fmt::format("{}: joint {}: {}, because actuator {} drives it; a scene without the actuator has no "
+                      "such bound",
+                      call, joint, why, k));
+  }
+}
+
 /* An articulation stays as it is. */
 void World::Implementation::refuse_articulated(const char *call, const char *why,
                                                std::span<const uint32_t> joints) const
@@ -256,6 +269,7 @@ void World::Implementation::destroy_joints(std::span<const JointId> ids)
   const auto twice = std::adjacent_find(destroyed.begin(), destroyed.end());
   if (twice != destroyed.end()) throw InputError(fmt::format("destroy_joints: joint {} is given twice", *twice));
   refuse_coupled("destroy_joints", "it cannot be destroyed", destroyed);
+  refuse_driven("destroy_joints", "it cannot be destroyed", destroyed);
   refuse_articulated("destroy_joints", "it cannot be destroyed", destroyed);
   destroy_joints_in(destroyed);
 }
@@ -301,6 +315,8 @@ void World::Implementation::set_joints(std::span<const JointId> ids, std::span<c
     if (before.type != given[i].type || before.body_a != given[i].body_a || before.body_b != given[i].body_b ||
         !(held_by(before) == held_by(given[i])))
       refuse_coupled("set_joints", "its type, its bodies and what it holds cannot change", std::span(&changed[i], 1));
+    if (before.type != given[i].type || !(held_by(before) == held_by(given[i])))
+      refuse_driven("set_joints", "its type and what it holds cannot change", std::span(&changed[i], 1));
   }
   if (!ids.empty()) put_joints(std::move(joints), joint_slots, changed);
 }

@@ -84,9 +84,14 @@ void SceneTables::add(const Scene &scene, Scene &all)
     if (articulation.root != no_body) articulation.root += first_body;
     all.articulations.push_back(std::move(articulation));
   }
+  for (Actuator actuator : scene.actuators) {
+    actuator.joint = number_of[actuator.joint];
+    all.actuators.push_back(std::move(actuator));
+  }
   first_joint_.push_back(all.joints.size());
   first_coupling_.push_back(all.couplings.size());
   first_articulation_.push_back(all.articulations.size());
+  first_actuator_.push_back(all.actuators.size());
   for (Body body : scene.bodies) {
     body.shape += tables_.back().first_shape;
     body.material += tables_.back().first_material;
@@ -114,6 +119,8 @@ Scene SceneTables::scene_of(uint32_t world, const Scene &all, uint32_t bodies, c
     if (articulation.root != no_body) articulation.root -= world * bodies;
     scene.articulations.push_back(std::move(articulation));
   }
+  for (size_t k = first_actuator_[world]; k < first_actuator_[world + 1]; ++k)
+    scene.actuators.emplace_back(all.actuators[k]).joint -= static_cast<uint32_t>(first_joint_[world]);
   for (Body &body : scene.bodies) {
     body.shape -= own.first_shape;
     body.material -= own.first_material;

@@ -1,5 +1,6 @@
-/* scene_tables.h - the shapes, materials, joints, couplings and articulations of the scenes of a batch, one scene after
- * the other in the scene of them all. Scenes with equal shapes and materials, such as copies of one, share these. */
+/* scene_tables.h - the shapes, materials, joints, couplings, articulations and actuators of the scenes of a batch, one
+ * scene after the other in the scene of them all. Scenes with equal shapes and materials, such as copies of one, share
+ * these. */
 #pragma once
 
 #include <cstdint>
@@ -13,7 +14,7 @@ namespace tandem {
 
 class SceneTables {
 public:
-  /* Adds bodies, joints, couplings and tables of a world's scene to those of all. */
+  /* Adds bodies, joints, what is of joints, and tables of a world's scene to those of all. */
   void add(const Scene &scene, Scene &all);
   /* The scene of a world of this scene of all, in which so many bodies belong to each. */
   Scene scene_of(uint32_t world, const Scene &all, uint32_t bodies, const Vec3 &gravity) const;
@@ -35,9 +36,9 @@ private:
   void add_table(const Scene &scene, Scene &all);
 
   std::vector<Table> tables_;
-  std::vector<uint32_t> table_of_;                               /* by world */
+  std::vector<uint32_t> table_of_; /* by world */
   /* Of each world, and the end. */
-  std::vector<size_t> first_joint_ = {0}, first_coupling_ = {0}, first_articulation_ = {0};
+  std::vector<size_t> first_joint_ = {0}, first_coupling_ = {0}, first_articulation_ = {0}, first_actuator_ = {0};
 };
 
 } // namespace tandem

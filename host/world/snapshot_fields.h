@@ -92,6 +92,12 @@ template <Is<Articulation> T, class Visit> auto visit_fields(T &record, const Vi
   return visit(name, joints, root, armatures);
 }
 
+template <Is<Actuator> T, class Visit> auto visit_fields(T &record, const Visit &visit)
+{
+  auto &[name, joint, axis, sets, offset, factor, lower, upper] = record;
+  return visit(name, joint, axis, sets, offset, factor, lower, upper);
+}
+
 /* Extensions are functions of the program; snapshots name their modules. */
 template <Is<Settings> T, class Visit> auto visit_fields(T &record, const Visit &visit)
 {

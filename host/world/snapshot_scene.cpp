@@ -202,7 +202,7 @@ std::vector<Shape> get_shapes(ByteReader &reader)
 
 void put_scene(ByteWriter &writer, const Scene &scene)
 {
-  const auto &[name, gravity, shapes, materials, bodies, joints, couplings, articulations, notes] = scene;
+  const auto &[name, gravity, shapes, materials, bodies, joints, couplings, articulations, actuators, notes] = scene;
   writer.put(name);
   writer.put(gravity);
   put_shapes(writer, shapes);
@@ -211,12 +211,13 @@ void put_scene(ByteWriter &writer, const Scene &scene)
   writer.put(joints);
   writer.put(couplings);
   writer.put(articulations);
+  writer.put(actuators);
 }
 
 Scene get_scene(ByteReader &reader)
 {
   Scene scene;
-  auto &[name, gravity, shapes, materials, bodies, joints, couplings, articulations, notes] = scene;
+  auto &[name, gravity, shapes, materials, bodies, joints, couplings, articulations, actuators, notes] = scene;
   reader.get(name);
   reader.get(gravity);
   shapes = get_shapes(reader);
@@ -225,6 +226,7 @@ Scene get_scene(ByteReader &reader)
   reader.get(joints);
   reader.get(couplings);
   reader.get(articulations);
+  reader.get(actuators);
   validate(scene, reader.where());
   return scene;
 }

@@ -18,16 +18,6 @@
 namespace tandem {
 namespace {
 
-/* What the control sets. */
-float &value_in(JointAxis &axis, Control what)
-{
-  switch (what) {
-  case Control::force: return axis.force;
-  case Control::target_position: return axis.target_position;
-  default: return axis.target_velocity;
-  }
-}
-
 /* A force is a damper towards a speed that a float must hold: damper_of in host/scene/joint_buffers.cpp. */
 bool can_hold(float damping, float force) { return std::abs(force) / fastest_damper <= damping; }
 
@@ -71,9 +61,45 @@ void check_distinct(std::span<const ControlledAxis> axes)
 {
   for (size_t i = 0; i < axes.size(); ++i)
     for (size_t k = 0; k < i; ++k)
-      if (axes[i].joint == axes[k].joint && axes[i].axis == axes[k].axis)
-        throw InputError(
-            fmt::format("choose_controls: entries {} and {} are of one axis; an axis has one control", k, i));
+      if (axes[i].joint == axes[k].joint && axes[i].axis == axes[k].axis && axes[i].what == axes[k].what)
+        throw InputError(fmt::format("choose_controls: entries {} and {} set the same of one axis; one of them is "
+                                     "needed",
+                                     k, i));
+}
+
+constexpr size_t no_partner = size_t(-1);
+
+/* A force and a target velocity of one axis are one number of its row. */
+std::vector<size_t> partners_among(std::span<const ControlledAxis> axes)
+{
+  std::vector<size_t> partners(axes.size(), no_partner);
+  for (size_t i = 0; i < axes.size(); ++i)
+    for (size_t k = 0; k < i; ++k)
+      if (axes[i].joint == axes[k].joint && axes[i].axis == axes[k].axis && axes[i].what != Control::target_position &&
+          axes[k].what != Control::target_position) {
+        partners[i] = k;
+        partners[k] = i;
+      }
+  return partners;
+}
+
+std::vector<ControlledAxis> axes_of(std::span<const Actuator> actuators)
+{
+  std::vector<ControlledAxis> axes;
+  for (const Actuator &actuator : actuators) axes.push_back({actuator.joint, actuator.axis, actuator.sets});
+  return axes;
+}
+
+void check_maps(std::span<const Actuator> actuators)
+{
+  for (size_t k = 0; k < actuators.size(); ++k) {
+    const Actuator &one = actuators[k];
+    if (std::isfinite(one.offset) && std::isfinite(one.factor) && one.lower <= one.upper) continue;
+    throw InputError(
+        fmt::format("choose_controls: entry {}: offset {:g}, factor {:g}, controls from {:g} to {:g}; finite "
+                    "numbers are needed, and lower at most upper",
+                    k, one.offset, one.factor, one.lower, one.upper));
+  }
 }
 
 /* The place of the axis among those that the joint limits, drives or brakes. */
@@ -101,7 +127,7 @@ template <class Function> void for_each_world(std::span<const uint32_t> worlds, 
 
 Worlds::Controls::Controls(const World::Implementation &engine, const SceneTables &tables,
                            std::span<const ControlledAxis> axes)
-    : chosen_(axes.begin(), axes.end()), joints_number_(engine.joints_number)
+    : chosen_(axes.begin(), axes.end()), partner_(partners_among(axes)), joints_number_(engine.joints_number)
 {
   check_distinct(axes);
   for (uint32_t world = 0; world < tables.worlds(); ++world)
@@ -111,6 +137,14 @@ Worlds::Controls::Controls(const World::Implementation &engine, const SceneTable
         throw InputError(fmt::format("{}it does not exist; the world has {} joints", where, tables.joints(world)));
       targets_.push_back(checked_target(engine, tables.first_joint(world) + axes[k].joint, axes[k], where));
     }
+}
+
+Worlds::Controls::Controls(const World::Implementation &engine, const SceneTables &tables,
+                           std::span<const Actuator> actuators)
+    : Controls(engine, tables, axes_of(actuators))
+{
+  check_maps(actuators);
+  actuators_.assign(actuators.begin(), actuators.end());
 }
 
 Worlds::Controls::Target Worlds::Controls::checked_target(const World::Implementation &engine, uint32_t joint,
@@ -135,8 +169,8 @@ Worlds::Controls::Target Worlds::Controls::target_of(const World::Implementation
 {
   const Joint &whole = engine.scene.joints[joint];
   JointAxis axis = axis_of(whole, control.axis);
-  Target target{joint, 0, 0, value_in(axis, control.what), 0, 0};
-  value_in(axis, control.what) = 0;
+  Target target{joint, 0, 0, controlled_number(axis, control.what), 0, 0};
+  controlled_number(axis, control.what) = 0;
   const auto rows = row_of_axis(axis);
   target.damping = rows[1].y;
   target.rest = rows[0].w;
@@ -177,25 +211,38 @@ void Worlds::Controls::write_row(const ControlledAxis &control, const Target &ta
   else row.w = target.damping > 0 ? target.value + target.rest : target.value;
 }
 
+/* The number of the axis for which the value stands. */
+float Worlds::Controls::number_of(size_t control, float value) const
+{
+  return actuators_.empty() ? value : number_at(actuators_[control], value);
+}
+
 void Worlds::Controls::check(uint32_t world, const float *values) const
 {
   for (size_t k = 0; k < count(); ++k) {
     const bool is_force = chosen_[k].what == Control::force;
-    const float damping = targets_[world * count() + k].damping;
-    if (std::isfinite(values[k]) && (!is_force || can_hold(damping, values[k]))) continue;
+    const float damping = targets_[world * count() + k].damping, number = number_of(k, values[k]);
+    if (std::isfinite(number) && (!is_force || can_hold(damping, number))) continue;
+    const bool is_mapped = !actuators_.empty() && std::isfinite(values[k]);
     throw InputError(fmt::format(
-        "set_controls: control {} of world {} is {:g}; {} is needed", k, world, values[k],
+        "set_controls: control {} of world {} is {:g}{}; {} is needed", k, world, values[k],
+        is_mapped ? fmt::format(", of which its axis gets {:g}", number) : "",
         is_force ? fmt::format("at most {:g}, of its damping {:g}, in size", fastest_damper * damping, damping)
                  : "a finite number"));
   }
 }
 
+/* A force and a target velocity of one axis have the bits of row_of_axis, whichever of them is written last. */
 void Worlds::Controls::write_rows(uint32_t world, const float *values)
 {
+  Target *targets = &targets_[world * count()];
   for (size_t k = 0; k < count(); ++k) {
-    Target &target = targets_[world * count() + k];
-    target.value = values[k];
+    Target &target = targets[k];
+    target.value = number_of(k, values[k]);
     write_row(chosen_[k], target);
+    if (partner_[k] == no_partner) continue;
+    const bool is_force = chosen_[k].what == Control::force;
+    targets[partner_[k]].rest = is_force ? target.value / target.damping : target.value;
   }
 }
 
@@ -220,7 +267,7 @@ void Worlds::Controls::write_scene(Scene &scene)
   if (!scene_is_behind_) return;
   for (size_t i = 0; i < targets_.size(); ++i) {
     const ControlledAxis &control = chosen_[i % count()];
-    value_in(axis_of(scene.joints[targets_[i].joint], control.axis), control.what) = targets_[i].value;
+    controlled_number(axis_of(scene.joints[targets_[i].joint], control.axis), control.what) = targets_[i].value;
   }
   scene_is_behind_ = false;
 }

@@ -27,6 +27,7 @@ public:
   Controls() = default;
   /* Throws InputError that names the first axis which cannot be controlled so. */
   Controls(const World::Implementation &engine, const SceneTables &tables, std::span<const ControlledAxis> axes);
+  Controls(const World::Implementation &engine, const SceneTables &tables, std::span<const Actuator> actuators);
 
   size_t count() const { return chosen_.size(); } /* of each world */
   /* values: of each of these worlds in turn. If it throws, nothing has changed. */
@@ -49,6 +50,8 @@ private:
     float damping; /* of an axis with a force */
     float rest;    /* of the speed to which the damper pulls: what the other of force and target velocity makes */
   };
+  float number_of(size_t control, float value) const;
+  /* values: of the controls of that world. */
   void check(uint32_t world, const float *values) const;
   void write_rows(uint32_t world, const float *values);
   Target checked_target(const World::Implementation &engine, uint32_t joint, const ControlledAxis &control,
@@ -59,7 +62,9 @@ private:
   void write_row(const ControlledAxis &control, const Target &target);
 
   std::vector<ControlledAxis> chosen_;
-  std::vector<Target> targets_; /* [world, control] */
+  std::vector<size_t> partner_;     /* of each control: the other one of the speed to which the damper pulls, or none */
+  std::vector<Actuator> actuators_; /* of each control; none if axes were chosen */
+  std::vector<Target> targets_;     /* [world, control] */
   std::vector<Rows> rows_;
   uint64_t joints_number_ = 0; /* World::Implementation::joints_number when the rows were read */
   bool were_read_ = false, scene_is_behind_ = false;

@@ -1,9 +1,12 @@
 /* world_joint_calls.cpp - the functions of <tandem/world.h> about joints: they come, change, are read and go. */
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include <tandem/world.h>
 
 #include "host/runtime/interface/floating_point.h"
+#include "host/scene/joint_rows.h"
 #include "host/world/answers.h"
 #include "host/world/implementation.h"
 
@@ -64,6 +67,43 @@ void World::set_joint_axes(std::span<const JointId> ids, std::span<const JointAx
   const minicl::ExactFloatingPoint environment;
   answer("axes of joints", implementation_->slots.existing(), [&] { implementation_->set_joint_axes(ids, changes); });
   note(implementation_->log, RecordedCall::set_joint_axes, ids, changes);
+}
+
+namespace {
+
+/* The change of that axis among those given, or a new one to what it is. */
+JointAxisChange &change_of(const JointId &joint, uint32_t number, const JointAxis &axis, std::vector<JointId> &joints,
+                           std::vector<JointAxisChange> &changes)
+{
+  for (size_t k = 0; k < joints.size(); ++k)
+    if (joints[k] == joint && changes[k].axis == number) return changes[k];
+  joints.push_back(joint);
+  return changes.emplace_back(JointAxisChange{number, axis});
+}
+
+} // namespace
+
+void World::set_controls(std::span<const float> controls)
+{
+  const Scene &scene = implementation_->scene;
+  if (controls.size() != scene.actuators.size())
+    throw InputError(fmt::format("set_controls: {} controls for {} actuators; one for each is needed", controls.size(),
+                                 scene.actuators.size()));
+  std::vector<JointId> joints;
+  std::vector<JointAxisChange> changes;
+  for (size_t k = 0; k < controls.size(); ++k) {
+    const Actuator &actuator = scene.actuators[k];
+    const float number = number_at(actuator, controls[k]);
+    if (!std::isfinite(number))
+      throw InputError(
+          fmt::format("set_controls: control {} is {:g}; a finite number is needed, which gives its axis a "
+                      "finite one",
+                      k, controls[k]));
+    const JointAxis &axis = axis_of(scene.joints[actuator.joint], actuator.axis);
+    JointAxisChange &change = change_of(id_of_joint(actuator.joint), actuator.axis, axis, joints, changes);
+    controlled_number(change.to, actuator.sets) = number;
+  }
+  set_joint_axes(joints, changes);
 }
 
 std::vector<JointReading> World::read_joints(std::span<const JointId> ids)

@@ -256,6 +256,12 @@ void Worlds::choose_controls(std::span<const ControlledAxis> axes)
   implementation_->controls = Controls(implementation_->engine(), implementation_->tables, axes);
 }
 
+void Worlds::choose_controls(std::span<const Actuator> actuators)
+{
+  implementation_->write_controls();
+  implementation_->controls = Controls(implementation_->engine(), implementation_->tables, actuators);
+}
+
 void Worlds::set_controls(std::span<const float> values)
 {
   std::vector<uint32_t> all(count());

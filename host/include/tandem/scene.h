@@ -1,4 +1,4 @@
-/* scene.h - what a user describes: shapes, materials, bodies, joints and couplings of these, gravity.
+/* scene.h - what a user describes: shapes, materials, bodies, joints, couplings and actuators of these, gravity.
  *
  * It is the first stage of the pipeline: loaders (scene files) and generators (built-in scenes) produce a Scene,
  * specialise and World consume it. Nothing here computes physics. Units are SI (metre, kilogram, second, radian),
@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include <tandem/actuators.h>
 #include <tandem/articulation.h>
 #include <tandem/axes.h>
 #include <tandem/couplings.h>
@@ -85,6 +86,7 @@ struct Scene {
   std::vector<Coupling> couplings; /* of joints */
   /* Trees that the step has in reduced coordinates (articulations.h); the other joints hold bodies. */
   std::vector<Articulation> articulations;
+  std::vector<Actuator> actuators; /* of axes of joints; they do nothing until a program sets their controls */
   std::vector<std::string> notes;  /* of the loader, a line each: what of its file the scene has in another way */
 };
 
@@ -100,6 +102,7 @@ TANDEM_API void validate(const Material &material, size_t index, const std::stri
 
 TANDEM_API void validate(const Scene &scene, const Joint &joint, size_t index, const std::string &where);
 TANDEM_API void validate(const Scene &scene, const Coupling &coupling, size_t index, const std::string &where);
+TANDEM_API void validate(const Scene &scene, const Actuator &actuator, size_t index, const std::string &where);
 
 /* One line for each body that can be simulated, but probably not as intended: a moving mesh that is not closed has only
  * an estimated volume. Scene::notes come first. */

@@ -28,6 +28,7 @@
 #include <string>
 #include <vector>
 
+#include <tandem/actuators.h>
 #include <tandem/backend.h>
 #include <tandem/bodies.h>
 #include <tandem/events.h>
@@ -47,9 +48,6 @@ struct WorldBody {
 struct WorldJoint {
   uint32_t world, joint;
 };
-
-/* What a program may set of an axis of a joint in every step: JointAxis::force, target_position or target_velocity. */
-enum class Control { force, target_position, target_velocity };
 
 /* An axis that is controlled in all worlds of a batch: of the joint with this index in the scene of each. */
 struct ControlledAxis {
@@ -129,13 +127,16 @@ public:
   void set_joint_axes(std::span<const WorldJoint> joints, std::span<const JointAxisChange> changes);
 
   /* Chooses what set_controls sets, instead of what was chosen before. Throws InputError if a world has no such joint
-   * or axis, if an axis is given twice, and if its drive cannot follow: a force needs damping (a little is enough), a
-   * target position stiffness, a target velocity damping or a motor. */
+   * or axis, if an axis is given twice with the same control, and if its drive cannot follow: a force needs damping (a
+   * little is enough), a target position stiffness, a target velocity damping or a motor. */
   void choose_controls(std::span<const ControlledAxis> axes);
+  /* The same for actuators, such as those of the scene. set_controls then takes their controls, as number_at does, with
+   * the bits that these numbers have with the axes chosen. */
+  void choose_controls(std::span<const Actuator> actuators);
   /* From the next step on, as set_joint_axes does it for few joints, with the same bits, but quickly for many:
    * values[world * controls + k], or values[i * controls + k] for the i-th of the worlds given, is that of the k-th
-   * axis chosen; N or N m, m or rad, m/s or rad/s. They stay until they are set again, also when a world is reset.
-   * InputError unless there is a finite one for each. */
+   * axis or actuator chosen; N or N m, m or rad, m/s or rad/s, or in the units of the actuator. They stay until they
+   * are set again, also when a world is reset. InputError unless there is a finite one for each. */
   void set_controls(std::span<const float> values);
   void set_controls(std::span<const uint32_t> worlds, std::span<const float> values);
 

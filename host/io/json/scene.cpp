@@ -30,6 +30,7 @@ std::span<const char *const> names_of(Combine) { return combine_names; }
 std::span<const char *const> names_of(JointType) { return joint_type_names(); }
 std::span<const char *const> names_of(CouplingType) { return coupling_type_names(); }
 std::span<const char *const> names_of(JointCoordinate) { return joint_coordinate_names(); }
+std::span<const char *const> names_of(Control) { return control_names(); }
 
 template <typename Field> void each_field(const Material *, Field &&field)
 {
@@ -132,6 +133,18 @@ template <typename Field> void each_field(const Articulation *, Field &&field)
   field("joints", &Articulation::joints);
   field("root", &Articulation::root);
   field("armatures", &Articulation::armatures);
+}
+
+template <typename Field> void each_field(const Actuator *, Field &&field)
+{
+  field("name", &Actuator::name);
+  field("joint", &Actuator::joint);
+  field("axis", &Actuator::axis);
+  field("sets", &Actuator::sets);
+  field("offset", &Actuator::offset);
+  field("factor", &Actuator::factor);
+  field("lower", &Actuator::lower);
+  field("upper", &Actuator::upper);
 }
 
 /* --- reading --------------------------------------------------------------------------------- */
@@ -317,6 +330,7 @@ std::string written(const ThreeAxes &axes)
 std::string written(const Joint &joint) { return written_record(joint, ""); }
 std::string written(const Coupling &coupling) { return written_record(coupling, ""); }
 std::string written(const Articulation &articulation) { return written_record(articulation, ""); }
+std::string written(const Actuator &actuator) { return written_record(actuator, ""); }
 
 std::string written(const Shape &shape) { return written_shape(shape); }
 
@@ -331,8 +345,8 @@ template <typename Record> void write_list(std::string &text, const char *key, c
 
 Scene parse_scene_json(const std::string &text, const std::string &where, OutsideFiles outside)
 {
-  static constexpr const char *keys[] = {"tandem_scene", "name",   "gravity",   "shapes",       "materials",
-                                         "bodies",       "joints", "couplings", "articulations"};
+  static constexpr const char *keys[] = {"tandem_scene", "name",   "gravity",   "shapes",        "materials",
+                                         "bodies",       "joints", "couplings", "articulations", "actuators"};
   const JsonDocument document = parse_json(text, where);
   const JsonValue root(document.value(), where);
   check_format(root);
@@ -348,6 +362,7 @@ Scene parse_scene_json(const std::string &text, const std::string &where, Outsid
   if (auto joints = root.find("joints")) read_value(*joints, scene.joints);
   if (auto couplings = root.find("couplings")) read_value(*couplings, scene.couplings);
   if (auto articulations = root.find("articulations")) read_value(*articulations, scene.articulations);
+  if (auto actuators = root.find("actuators")) read_value(*actuators, scene.actuators);
   validate(scene, where);
   return scene;
 }
@@ -368,6 +383,7 @@ std::string to_scene_json(const Scene &scene)
   if (!scene.joints.empty()) write_list(text, "joints", scene.joints);
   if (!scene.couplings.empty()) write_list(text, "couplings", scene.couplings);
   if (!scene.articulations.empty()) write_list(text, "articulations", scene.articulations);
+  if (!scene.actuators.empty()) write_list(text, "actuators", scene.actuators);
   return text + "}\n";
 }
 
