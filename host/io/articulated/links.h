@@ -67,11 +67,20 @@ struct JointCoupling {
   double factor = 1, offset = 0;
 };
 
+/* Drives the axis of a joint, which is a hinge or a slide: the joint and the axis of `actuator` follow from its name,
+ * and so does the way that its numbers count. */
+struct LinkActuator {
+  int line = 0;
+  std::string joint, what; /* what: how the file calls it */
+  Actuator actuator;
+};
+
 struct Robot {
   std::string file; /* begins messages */
   std::vector<Link> links;
   std::vector<LinkConnection> connections;
   std::vector<JointCoupling> couplings;
+  std::vector<LinkActuator> actuators;
   Coordinates coordinates = Coordinates::maximal;
 };
 

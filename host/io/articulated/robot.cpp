@@ -90,6 +90,7 @@ private:
   void hold(const PlacedAxis &place, const JointCoupling &coupling);
   void leave_out_rolling();
   void couple(const JointCoupling &coupling);
+  void add_actuator(const LinkActuator &driven);
   void note_armatures(const LinkGroup &group);
   bool is_tree() const { return robot_.coordinates == Coordinates::reduced; }
 
@@ -466,6 +467,20 @@ void RobotBuilder::couple(const JointCoupling &coupling)
   scene_.couplings.push_back(mimic);
 }
 
+/* An axis that points the other way has the opposite of each number. */
+void RobotBuilder::add_actuator(const LinkActuator &driven)
+{
+  const auto place = axis_of_.find(driven.joint);
+  if (place == axis_of_.end())
+    return notes_.add(driven.line, fmt::format("{} drives joint \"{}\", which is left out", driven.what, driven.joint));
+  Actuator &actuator = scene_.actuators.emplace_back(driven.actuator);
+  actuator.joint = place->second.joint;
+  actuator.axis = uint32_t(place->second.axis.axis);
+  if (!place->second.axis.reversed) return;
+  actuator.offset = 0 - actuator.offset;
+  actuator.factor = 0 - actuator.factor;
+}
+
 void RobotBuilder::build()
 {
   place_links();
@@ -479,6 +494,7 @@ void RobotBuilder::build()
     if (!group.gone) add_joints(group);
   add_connections();
   for (const JointCoupling &coupling : robot_.couplings) couple(coupling);
+  for (const LinkActuator &driven : robot_.actuators) add_actuator(driven);
   if (!is_tree()) return;
   leave_out_rolling();
   armatures_.resize(scene_.joints.size());

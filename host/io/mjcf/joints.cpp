@@ -2,6 +2,8 @@
 #include "host/io/mjcf/joints.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -25,6 +27,11 @@ constexpr const char *joint_attributes[] = {"name",
                                             "actuatorfrclimited"};
 constexpr const char *actuator_attributes[] = {"name", "class",       "joint",     "gear",         "kp",
                                                "kv",   "ctrllimited", "ctrlrange", "forcelimited", "forcerange"};
+
+/* A batch sets forces of axes with damping alone (Worlds::choose_controls). What an axis without any gets brakes
+ * nothing: at 1 m/s or rad/s this share of the largest force, s/m or s/rad. */
+constexpr double damping_of_motor = 1e-11;
+constexpr double bound_of_unlimited_motor = 1e5, least_bound_of_motor = 1; /* N, or N m */
 
 /* A spring or damper is a strength and where it pulls to. Two of them are one with the sum of the strengths, which
  * pulls to the mean. */
@@ -88,12 +95,59 @@ double gear_of(const XmlElement &actuator, XmlNotes &notes)
   return gear.empty() ? 1 : gear.front();
 }
 
-/* The control that is 0, or nearest to it. */
-double control_of(const XmlElement &actuator, const MjcfCompiler &compiler)
+/* Of a control, or of a force. */
+std::pair<double, double> range_or_unlimited(const XmlElement &actuator, const MjcfCompiler &compiler,
+                                             const char *limited, const char *range)
 {
-  if (!compiler.is_limited(actuator, "ctrllimited", "ctrlrange")) return 0;
-  const auto [lower, upper] = range_of(actuator, "ctrlrange");
-  return std::clamp(0.0, lower, upper);
+  const double infinity = std::numeric_limits<double>::infinity();
+  return compiler.is_limited(actuator, limited, range) ? range_of(actuator, range) : std::pair(-infinity, infinity);
+}
+
+MjcfActuator named_actuator(const XmlElement &actuator, const MjcfCompiler &compiler, XmlNotes &notes)
+{
+  const std::string name = actuator.text("name").value_or("");
+  MjcfActuator result;
+  result.driven.line = actuator.line;
+  result.driven.joint = actuator.text("joint").value_or("");
+  result.driven.what =
+      name.empty() ? fmt::format("a <{}>", actuator.name) : fmt::format("<{}> \"{}\"", actuator.name, name);
+  result.driven.actuator.name = name;
+  const auto [lower, upper] = range_or_unlimited(actuator, compiler, "ctrllimited", "ctrlrange");
+  result.driven.actuator.lower = round_to_float(lower);
+  result.driven.actuator.upper = round_to_float(upper);
+  result.gear = gear_of(actuator, notes);
+  result.rest = std::clamp(0.0, lower, upper);
+  return result;
+}
+
+/* Its force is the control times the gear. That of a motor is bounded before the gear, as the control is. */
+void drive_by_motor(const XmlElement &element, const MjcfCompiler &compiler, MjcfActuator &motor, JointAxis &axis)
+{
+  Actuator &actuator = motor.driven.actuator;
+  const auto [lower, upper] = range_or_unlimited(element, compiler, "forcelimited", "forcerange");
+  actuator.sets = Control::force;
+  actuator.factor = round_to_float(motor.gear);
+  actuator.lower = std::clamp(actuator.lower, round_to_float(lower), round_to_float(upper));
+  actuator.upper = std::clamp(actuator.upper, round_to_float(lower), round_to_float(upper));
+  if (axis.damping > 0) return;
+  const double most = std::abs(motor.gear) * largest_in({double{actuator.lower}, double{actuator.upper}});
+  const double bound = std::isfinite(most) ? std::max(most, least_bound_of_motor) : bound_of_unlimited_motor;
+  axis.damping = round_to_float(damping_of_motor * bound);
+}
+
+void drive_by_servo(const XmlElement &element, const MjcfCompiler &compiler, double reference, MjcfActuator &servo,
+                    JointAxis &axis)
+{
+  const bool places = element.name == "position";
+  const double squared = servo.gear * servo.gear, target = servo.rest / servo.gear;
+  const double stiffness = places ? element.at_least_zero_or("kp", 1) * squared : 0;
+  const double damping = element.at_least_zero_or("kv", places ? 0 : 1) * squared;
+  add_pull(axis.stiffness, axis.target_position, stiffness, target - reference);
+  add_pull(axis.damping, axis.target_velocity, damping, places ? 0 : target);
+  if (compiler.is_limited(element, "forcelimited", "forcerange"))
+    bound_force(std::abs(servo.gear) * largest_in(range_of(element, "forcerange")), axis);
+  servo.driven.actuator.sets = places ? Control::target_position : Control::target_velocity;
+  servo.strength = round_to_float(places ? stiffness : damping);
 }
 
 } // namespace
@@ -121,25 +175,38 @@ LinkJoint mjcf_joint(const XmlElement &joint, const MjcfCompiler &compiler, cons
   return result;
 }
 
-void drive_mjcf_joint(const XmlElement &actuator, const MjcfCompiler &compiler, double reference, LinkJoint &joint,
-                      XmlNotes &notes)
+std::optional<MjcfActuator> drive_mjcf_joint(const XmlElement &actuator, const MjcfCompiler &compiler, double reference,
+                                             LinkJoint &joint, XmlNotes &notes)
 {
   notes.add_other_attributes(actuator, actuator_attributes);
+  const bool is_motor = actuator.name == "motor";
+  MjcfActuator result = named_actuator(actuator, compiler, notes);
+  const auto leave_out = [&](const std::string &why) -> std::optional<MjcfActuator> {
+    notes.add(actuator, why);
+    return {};
+  };
   if (joint.kind == LinkJoint::Kind::ball)
-    return notes.add(actuator, fmt::format("<{}> of a ball joint is not held", actuator.name));
-  const double gear = gear_of(actuator, notes), squared = gear * gear, control = control_of(actuator, compiler);
-  JointAxis &axis = joint.settings;
-  const bool places = actuator.name == "position";
-  const double stiffness = places ? actuator.at_least_zero_or("kp", 1) * squared : 0;
-  const double damping = actuator.name == "motor" ? 0 : actuator.at_least_zero_or("kv", places ? 0 : 1) * squared;
-  if (gear != 0) {
-    add_pull(axis.stiffness, axis.target_position, stiffness, control / gear - reference);
-    add_pull(axis.damping, axis.target_velocity, damping, places ? 0 : control / gear);
-  }
-  if (actuator.name == "motor")
-    return notes.add(actuator, "a <motor> exerts nothing by itself; a program sets JointAxis::force");
-  if (compiler.is_limited(actuator, "forcelimited", "forcerange"))
-    bound_force(std::abs(gear) * largest_in(range_of(actuator, "forcerange")), axis);
+    return leave_out(fmt::format("<{}> of a ball joint is not held", actuator.name));
+  if (result.gear == 0) return leave_out(fmt::format("{} has a gear of 0, so it does nothing", result.driven.what));
+  if (is_motor) drive_by_motor(actuator, compiler, result, joint.settings);
+  else drive_by_servo(actuator, compiler, reference, result, joint.settings);
+  if (!is_motor && result.strength == 0)
+    return leave_out(fmt::format("the control of {} does nothing, because its {} is 0", result.driven.what,
+                                 actuator.name == "position" ? "kp" : "kv"));
+  if (is_motor) notes.add(actuator, "a <motor> exerts nothing until a program sets its control");
+  return result;
+}
+
+void map_mjcf_control(const JointAxis &axis, MjcfActuator &actuator)
+{
+  Actuator &driven = actuator.driven.actuator;
+  if (driven.sets == Control::force) return;
+  const bool places = driven.sets == Control::target_position;
+  const double whole = double{places ? axis.stiffness : axis.damping};
+  const double target = double{places ? axis.target_position : axis.target_velocity};
+  const double factor = double{actuator.strength} / whole / actuator.gear;
+  driven.factor = round_to_float(factor);
+  driven.offset = round_to_float(target - factor * actuator.rest);
 }
 
 } // namespace tandem

@@ -2,6 +2,7 @@
 #include "host/io/mjcf/scene.h"
 
 #include <algorithm>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -31,6 +32,8 @@ private:
   void connect(const XmlElement &connection);
   void couple(const XmlElement &equality);
   void read_actuator(const XmlElement &actuator);
+  void add_actuator(MjcfActuator actuator);
+  void map_actuators();
   std::string joint_name(const XmlElement &element, const char *key) const;
   void note_rest();
 
@@ -41,6 +44,8 @@ private:
   MjcfDefaults defaults_;
   MjcfGeoms geoms_;
   MjcfBodies bodies_;
+  std::vector<MjcfActuator> actuators_;
+  std::map<std::pair<std::string, Control>, std::string> driver_of_; /* what drives a joint, by what it sets */
   Robot robot_;
 };
 
@@ -153,7 +158,31 @@ void MjcfReader::read_actuator(const XmlElement &written)
     return notes_.add(actuator, fmt::format("<{}> of <actuator>{} is not held", actuator.name,
                                             is_read ? " that drives no joint" : ""));
   const MjcfJointPlace &place = bodies_.joints.at(joint_name(actuator, "joint"));
-  drive_mjcf_joint(actuator, compiler_, place.reference, bodies_.links[place.link].joints[place.joint], notes_);
+  LinkJoint &joint = bodies_.links[place.link].joints[place.joint];
+  if (auto driven = drive_mjcf_joint(actuator, compiler_, place.reference, joint, notes_))
+    add_actuator(std::move(*driven));
+}
+
+/* An axis has one force and one target of each kind, so that a second control of it stays where it is. */
+void MjcfReader::add_actuator(MjcfActuator actuator)
+{
+  const LinkActuator &driven = actuator.driven;
+  const Control sets = driven.actuator.sets;
+  const auto [first, is_new] = driver_of_.emplace(std::pair(driven.joint, sets), driven.what);
+  if (is_new) return actuators_.push_back(std::move(actuator));
+  const std::string stays =
+      sets == Control::force ? "exerts nothing" : fmt::format("stays at a control of {:g}", actuator.rest);
+  notes_.add(driven.line, fmt::format("{} {}, because {} drives joint \"{}\" in the same way", driven.what, stays,
+                                      first->second, driven.joint));
+}
+
+void MjcfReader::map_actuators()
+{
+  for (MjcfActuator &actuator : actuators_) {
+    const MjcfJointPlace &place = bodies_.joints.at(actuator.driven.joint);
+    map_mjcf_control(bodies_.links[place.link].joints[place.joint].settings, actuator);
+    robot_.actuators.push_back(std::move(actuator.driven));
+  }
 }
 
 /* What is not read is listed; of lists, each kind of entry. */
@@ -182,6 +211,7 @@ Scene MjcfReader::read()
   read_contacts();
   for (const XmlElement *equality : in_sections("equality")) read_equality(*equality);
   for (const XmlElement *actuator : in_sections("actuator")) read_actuator(*actuator);
+  map_actuators();
   note_rest();
   robot_.links = bodies_.links;
   add_robot(robot_, notes_, scene_);
