@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -22,7 +23,7 @@ constexpr const char *robot_unless_given = "humanoid";
 constexpr uint32_t worlds_unless_given = 1024, turns = 4, steps_of_turn = 50;
 constexpr uint64_t untimed_steps = uint64_t{turns} * steps_of_turn, steps_unless_given = untimed_steps;
 constexpr float control_step = 0.005f; /* s, as learners of walking take it */
-constexpr float largest_force = 40;    /* N m, or N: the mean of the joints of MuJoCo's humanoid.xml */
+constexpr float largest_force = 40;    /* N m, or N, of axes without actuators */
 
 struct ControlsTime {
   std::string scene;
@@ -32,20 +33,37 @@ struct ControlsTime {
   double contacts = 0;      /* points of a world, at the end */
 };
 
-/* Of hinges and sliders, which have one axis each. */
-std::vector<ControlledAxis> damped_axes(const Scene &scene)
+/* Forces on hinges and sliders, which have one axis each. */
+std::vector<Actuator> actuators_of_damped_axes(const Scene &scene)
 {
-  std::vector<ControlledAxis> axes;
+  std::vector<Actuator> actuators;
   for (uint32_t joint = 0; joint < scene.joints.size(); ++joint) {
     const Joint &one = scene.joints[joint];
     const bool is_hinge = one.type == JointType::hinge;
     const JointAxis &axis = is_hinge ? one.rotations[0] : one.directions[0];
     if ((is_hinge || one.type == JointType::slider) && axis.damping > 0 && !axis.motor)
-      axes.push_back({joint, is_hinge ? 3u : 0u, Control::force});
+      actuators.push_back({.name = one.name,
+                           .joint = joint,
+                           .axis = is_hinge ? 3u : 0u,
+                           .lower = -largest_force,
+                           .upper = largest_force});
   }
-  if (axes.empty())
-    throw InputError(fmt::format("{}: no hinge or slider has damping, so there is none to drive", scene.name));
-  return axes;
+  if (actuators.empty())
+    throw InputError(
+        fmt::format("{}: it has no actuators, and no hinge or slider has damping; there is none to drive", scene.name));
+  return actuators;
+}
+
+/* Those of the scene, as a learner has them, if there are some. What has no range is driven by controls of at most 1. */
+std::vector<Actuator> driving_actuators(const Scene &scene)
+{
+  std::vector<Actuator> actuators = scene.actuators.empty() ? actuators_of_damped_axes(scene) : scene.actuators;
+  for (Actuator &actuator : actuators) {
+    if (std::isfinite(actuator.lower) && std::isfinite(actuator.upper)) continue;
+    actuator.lower = std::clamp(-1.0f, actuator.lower, actuator.upper);
+    actuator.upper = std::clamp(1.0f, actuator.lower, actuator.upper);
+  }
+  return actuators;
 }
 
 using Clock = std::chrono::steady_clock;
@@ -57,9 +75,10 @@ double milliseconds_from(Clock::time_point start, Clock::time_point end)
 class DrivenWorlds {
 public:
   DrivenWorlds(const Scene &scene, uint32_t worlds, const Placement &placement)
-      : worlds_(scene, worlds, settings(), placement), controls_(damped_axes(scene)), values_(worlds * controls_.size())
+      : worlds_(scene, worlds, settings(), placement), actuators_(driving_actuators(scene)),
+        values_(worlds * actuators_.size())
   {
-    worlds_.choose_controls(controls_);
+    worlds_.choose_controls(actuators_);
   }
 
   ControlsTime run(uint64_t steps)
@@ -73,7 +92,7 @@ public:
       progress.update(step + 1);
     }
     time.worlds = worlds_.count();
-    time.controls = controls_.size();
+    time.controls = actuators_.size();
     time.set /= static_cast<double>(steps);
     time.step /= static_cast<double>(steps);
     time.contacts = static_cast<double>(worlds_.statistics().contacts) / worlds_.count();
@@ -90,7 +109,10 @@ private:
   }
   void advance(uint64_t step, ControlsTime &time)
   {
-    for (float &value : values_) value = static_cast<float>(random_.uniform(-largest_force, largest_force));
+    for (size_t i = 0; i < values_.size(); ++i) {
+      const Actuator &actuator = actuators_[i % actuators_.size()];
+      values_[i] = static_cast<float>(random_.uniform(double{actuator.lower}, double{actuator.upper}));
+    }
     worlds_.finish();
     const Clock::time_point before = Clock::now();
     if (step % steps_of_turn == 0) begin_anew(step / steps_of_turn % turns);
@@ -109,7 +131,7 @@ private:
   }
 
   Worlds worlds_;
-  std::vector<ControlledAxis> controls_;
+  std::vector<Actuator> actuators_;
   std::vector<float> values_;
   Random random_{1};
 };
@@ -121,11 +143,11 @@ double driven_steps_a_second(const ControlsTime &time)
 
 std::string text_of(const ControlsTime &time, uint64_t steps)
 {
-  return fmt::format("  {}: {} worlds, {} forces of up to {:g} N m drawn anew for each in {} steps of {:g} ms\n"
+  return fmt::format("  {}: {} worlds, {} controls drawn anew for each in {} steps of {:g} ms\n"
                      "  setting them {:.3f} ms, stepping {:.3f} ms: {:.0f} world-steps/s; {:.1f} contact points in a "
                      "world\n",
-                     time.scene, time.worlds, time.controls, largest_force, steps, 1e3 * control_step, time.set,
-                     time.step, driven_steps_a_second(time), time.contacts);
+                     time.scene, time.worlds, time.controls, steps, 1e3 * control_step, time.set, time.step,
+                     driven_steps_a_second(time), time.contacts);
 }
 
 Json json_of(const ControlsTime &time)
