@@ -6,6 +6,8 @@
 #include <fstream>
 #include <sstream>
 
+#include <tandem/worlds.h>
+
 #include "host/io/mjcf/scene.h"
 #include "host/io/urdf/scene.h"
 #include "tests/parity/parity.h"
@@ -98,6 +100,35 @@ double angle_after(double start, double rate, double seconds)
 }
 
 } // namespace
+
+/* A motor whose joint has no damping, which a batch needs to set its force. */
+TEST_CASE("an MJCF motor of gear g at a control u turns a free hinge at g u over its moment of inertia", "[physics]")
+{
+  const Coordinates coordinates = GENERATE(Coordinates::maximal, Coordinates::reduced);
+  const Scene scene =
+      parse_scene_mjcf(R"(<mujoco><option gravity="0 0 0"/><worldbody><body><joint name="j" axis="0 0 1"/>
+      <geom type="box" size="0.1 0.2 0.3" mass="3"/></body></worldbody>
+    <actuator><motor joint="j" gear="-4" ctrlrange="-1 1"/></actuator></mujoco>)",
+                       "motor.xml", OutsideFiles::refused, coordinates);
+  const double inertia = 3 * (0.1 * 0.1 + 0.2 * 0.2) / 3, seconds = 0.5;
+  World alone(scene, {}, {"serial", {}});
+  Worlds worlds(scene, 2, {}, {"serial", {}});
+  worlds.choose_controls(scene.actuators);
+  alone.set_controls(std::vector<float>{0.25f});
+  worlds.set_controls(std::vector<float>{0.25f, -20});
+  for (int step = 0; step < 30; ++step) {
+    alone.step();
+    worlds.step();
+  }
+  const auto speed_of = [&](uint32_t world) {
+    return worlds.read_joints(std::vector<WorldJoint>{{world, 0}})[0].rotation_speeds[0];
+  };
+  CHECK(alone.read_joint(alone.id_of_joint(0)).rotation_speeds[0] ==
+        Approx(-4 * 0.25 / inertia * seconds).epsilon(1e-4));
+  CHECK(speed_of(0) == Approx(-4 * 0.25 / inertia * seconds).epsilon(1e-4));
+  CHECK(speed_of(1) == Approx(4 / inertia * seconds).epsilon(1e-4)); /* its control ends at -1 */
+  CHECK(worlds.state_hash(0) == alone.state_hash());
+}
 
 TEST_CASE("a URDF pendulum of an arm and a welded tip swings as a rigid body about its hinge", "[physics]")
 {

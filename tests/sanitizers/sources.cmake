@@ -5,7 +5,7 @@
 # joins sources (tests/join.cmake).
 set(reader_tests io/bad_shapes_test io/contact_problem/file_test io/obj/mesh_test io/gltf/scene_test io/json/scene_test
   scene/scene_test io/gltf/animation_test io/gltf/joints_test io/gltf/solids_test io/gltf/strict_test
-  io/mjcf/joints_test io/mjcf/scene_test io/stl/mesh_test io/urdf/scene_test io/urdf/strict_test)
+  io/mjcf/actuators_test io/mjcf/joints_test io/mjcf/scene_test io/stl/mesh_test io/urdf/scene_test io/urdf/strict_test)
 list(TRANSFORM reader_tests PREPEND host/)
 list(APPEND reader_tests tools/command/command_test tools/command/hostile_files_test)
 set(watched_tests)

@@ -54,7 +54,7 @@ std::vector<Actuator> actuators_of_damped_axes(const Scene &scene)
   return actuators;
 }
 
-/* Those of the scene, as a learner has them, if there are some. What has no range is driven by controls of at most 1. */
+/* Those of the scene, as a learner has them, if there are some. One without a range has controls from -1 to 1. */
 std::vector<Actuator> driving_actuators(const Scene &scene)
 {
   std::vector<Actuator> actuators = scene.actuators.empty() ? actuators_of_damped_axes(scene) : scene.actuators;

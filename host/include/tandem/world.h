@@ -315,8 +315,8 @@ public:
     const JointAxisChange change{axis, to};
     set_joint_axes(std::span(&id, 1), std::span(&change, 1));
   }
-  /* Sets what the actuators of the scene set, by set_joint_axes: controls[k] is that of Scene::actuators[k], as number_at
-   * takes it. InputError unless there is a finite one for each. */
+  /* Sets what the actuators of the scene set, by set_joint_axes: controls[k] is that of Scene::actuators[k], as
+   * number_at takes it. InputError unless there is a finite one for each. */
   void set_controls(std::span<const float> controls);
   std::vector<JointReading> read_joints(std::span<const JointId> ids);
   JointReading read_joint(const JointId &id) { return read_joints(std::span(&id, 1)).front(); }

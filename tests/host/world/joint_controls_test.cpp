@@ -1,4 +1,5 @@
 /* Controls of a batch, beside worlds alone whose axes set_joint_axes sets to the same values. */
+#include <algorithm>
 #include <limits>
 
 #include "host/base/random.h"
@@ -79,6 +80,19 @@ void set_random(BatchBesideWorlds &both, std::span<const ControlledAxis> control
       set_alone(*both.alone[world], control, values.back());
     }
   both.batch.set_controls(worlds, values);
+}
+
+const std::vector<Actuator> all_actuators{
+    {.name = "push", .joint = 0, .axis = 0, .sets = Control::force, .factor = -3, .lower = -2, .upper = 1},
+    {.name = "lean", .joint = 1, .axis = 3, .sets = Control::target_position, .offset = 0.1f, .factor = 0.3f},
+    {.name = "spin", .joint = 2, .axis = 3, .sets = Control::target_velocity, .factor = 7, .upper = 4},
+    {.name = "wave", .joint = 3, .axis = 4, .sets = Control::force, .offset = 1.7f, .factor = 0.1f, .lower = 0}};
+
+/* What the actuator's control stands for, in float. */
+float expected_number(const Actuator &actuator, float control)
+{
+  const float product = actuator.factor * std::min(std::max(control, actuator.lower), actuator.upper);
+  return actuator.offset + product;
 }
 
 void require_equal_axes(BatchBesideWorlds &both)
@@ -257,9 +271,9 @@ TEST_CASE("controls that cannot be are refused, and change nothing")
   refuses({0, 0, Control::target_position}, "axis 0 has no stiffness to pull it to a position");
   refuses({2, 3, Control::force}, "axis 3 is a motor, which has no force; control its target_velocity");
   refuses({4, 3, Control::target_position}, "axis 3 is one of a ball of an articulation");
-  const std::vector<ControlledAxis> twice{all_kinds[0], all_kinds[1], {0, 0, Control::target_velocity}};
-  CHECK_THROWS_WITH(worlds.choose_controls(twice), "choose_controls: entries 0 and 2 are of one axis; an axis has one "
-                                                   "control");
+  const std::vector<ControlledAxis> twice{all_kinds[0], all_kinds[1], {0, 0, Control::force}};
+  CHECK_THROWS_WITH(worlds.choose_controls(twice), "choose_controls: entries 0 and 2 set the same of one axis; one of "
+                                                   "them is needed");
   CHECK_THROWS_WITH(worlds.set_controls(std::vector<float>{1}),
                     ContainsSubstring("1 values for 2 worlds of 0 controls"));
   worlds.choose_controls(all_kinds);
@@ -274,4 +288,129 @@ TEST_CASE("controls that cannot be are refused, and change nothing")
                     ContainsSubstring("set_controls: world 2 does not exist"));
   CHECK(worlds.scene(0).joints[0].directions[0].force == 0);
   CHECK(worlds.state_hashes() == before);
+}
+
+TEST_CASE("controls of actuators have the bits of the numbers that they stand for, and end at their ranges")
+{
+  const bool in_tree = GENERATE(false, true);
+  CAPTURE(in_tree);
+  std::vector<Scene> scenes = scenes_of(in_tree);
+  for (Scene &scene : scenes) scene.actuators = all_actuators;
+  BatchBesideWorlds both(scenes, "serial");
+  Random random(23);
+  both.batch.choose_controls(all_actuators);
+  for (int step = 0; step < 6; ++step) {
+    std::vector<float> values;
+    for (const std::unique_ptr<World> &world : both.alone)
+      for (const Actuator &actuator : all_actuators) {
+        values.push_back(float(random.uniform(-5, 5)));
+        set_alone(*world, {actuator.joint, actuator.axis, actuator.sets}, expected_number(actuator, values.back()));
+      }
+    both.batch.set_controls(values);
+    both.step(1);
+  }
+  require_equal_axes(both);
+  both.batch.set_controls(std::vector<uint32_t>{2}, std::vector<float>{-100, 0, 100, -100});
+  const Scene scene = both.batch.scene(2);
+  CHECK(scene.joints[0].directions[0].force == 6);
+  CHECK(scene.joints[2].rotations[0].target_velocity == 28);
+  CHECK(scene.joints[3].rotations[1].force == 1.7f);
+}
+
+TEST_CASE("actuators of a batch are those of its scenes, in snapshots, too")
+{
+  std::vector<Scene> scenes = scenes_of(false);
+  for (Scene &scene : scenes) scene.actuators = all_actuators;
+  scenes[1].actuators.pop_back();
+  BatchBesideWorlds both(scenes, "serial");
+  for (uint32_t world = 0; world < scenes.size(); ++world) {
+    CAPTURE(world);
+    CHECK(both.batch.scene(world).actuators == scenes[world].actuators);
+    const std::vector<std::byte> saved = both.batch.save(world);
+    CHECK(saved == both.alone[world]->save());
+    CHECK(World(saved, Placement{"serial", {}, false}).scene().actuators == scenes[world].actuators);
+  }
+}
+
+TEST_CASE("a force and both targets of one axis are controls of their own")
+{
+  const bool in_tree = GENERATE(false, true);
+  CAPTURE(in_tree);
+  BatchBesideWorlds both(scenes_of(in_tree), "serial");
+  Random random(5);
+  std::vector<ControlledAxis> controls{
+      {1, 3, Control::force}, {1, 3, Control::target_velocity}, {1, 3, Control::target_position}};
+  if (GENERATE(false, true)) std::reverse(controls.begin(), controls.end());
+  both.batch.choose_controls(controls);
+  for (int step = 0; step < 4; ++step) {
+    set_random(both, controls, std::vector<uint32_t>{0, 1, 2, 3}, random);
+    both.step(1);
+  }
+  set_random(both, controls, std::vector<uint32_t>{2}, random);
+  both.step(1);
+  require_equal_axes(both);
+}
+
+TEST_CASE("a world takes the controls of its scene's actuators")
+{
+  Scene scene = cart_and_pole(GENERATE(false, true));
+  scene.actuators = all_actuators;
+  scene.actuators.push_back({.name = "hurry", .joint = 1, .axis = 3, .sets = Control::target_velocity, .factor = 2});
+  World driven(scene, {}, {"serial", {}}), by_axes(scene, {}, {"serial", {}});
+  Random random(2);
+  for (int step = 0; step < 5; ++step) {
+    std::vector<float> controls;
+    for (const Actuator &actuator : scene.actuators) {
+      controls.push_back(float(random.uniform(-5, 5)));
+      set_alone(by_axes, {actuator.joint, actuator.axis, actuator.sets}, expected_number(actuator, controls.back()));
+    }
+    driven.set_controls(controls);
+    driven.step();
+    by_axes.step();
+    REQUIRE(driven.state_hash() == by_axes.state_hash());
+  }
+  CHECK_THROWS_WITH(driven.set_controls(std::vector<float>(4)),
+                    "set_controls: 4 controls for 5 actuators; one for each is needed");
+  const float infinity = std::numeric_limits<float>::infinity();
+  CHECK_THROWS_WITH(driven.set_controls(std::vector<float>{0, 0, 0, infinity, 0}),
+                    ContainsSubstring("set_controls: control 3 is inf; a finite number is needed"));
+}
+
+TEST_CASE("controls of actuators that cannot be are refused in the units of the actuator")
+{
+  Worlds worlds(cart_and_pole(), 2, {}, {"serial", {}});
+  const auto refuses = [&](Actuator actuator, const char *why) {
+    CHECK_THROWS_WITH(worlds.choose_controls(std::span<const Actuator>(&actuator, 1)), ContainsSubstring(why));
+  };
+  refuses({.name = "", .joint = 1, .axis = 5}, "entry 0: world 0: joint 1: axis 5 is not free");
+  refuses({.name = "", .joint = 0, .axis = 0, .sets = Control::target_position}, "axis 0 has no stiffness");
+  refuses({.name = "", .joint = 0, .axis = 0, .lower = 1, .upper = -1},
+          "entry 0: offset 0, factor 1, controls from 1 to -1");
+  refuses({.name = "", .joint = 0, .axis = 0, .factor = std::numeric_limits<float>::infinity()}, "factor inf");
+  worlds.choose_controls(all_actuators);
+  const float infinity = std::numeric_limits<float>::infinity();
+  CHECK_THROWS_WITH(worlds.set_controls(std::vector<float>{0, 0, 0, 0, -infinity, 0, 0, 0}),
+                    ContainsSubstring("control 0 of world 1 is -inf; at most 5e+11"));
+  CHECK_THROWS_WITH(worlds.set_controls(std::vector<float>{0, 0, 0, 1e13f, 0, 0, 0, 0}),
+                    ContainsSubstring("control 3 of world 0 is 1e+13, of which its axis gets 1e+12; at most 2e+11"));
+}
+
+TEST_CASE("a joint that an actuator drives stays, and its axis stays free")
+{
+  Scene scene = cart_and_pole();
+  scene.actuators = {all_actuators[1]};
+  World world(scene, {}, {"serial", {}});
+  CHECK_THROWS_WITH(world.destroy_joint(world.id_of_joint(1)),
+                    ContainsSubstring("destroy_joints: joint 1: it cannot be destroyed, because actuator 0 drives it"));
+  CHECK_THROWS_WITH(world.destroy_body(world.id_of(1)), ContainsSubstring("because actuator 0 drives it"));
+  Joint held = scene.joints[1];
+  held.type = JointType::fixed;
+  held.rotations[0] = {};
+  CHECK_THROWS_WITH(world.set_joint(world.id_of_joint(1), held),
+                    ContainsSubstring("its type and what it holds cannot change, because actuator 0 drives it"));
+  held = scene.joints[1];
+  held.rotations[0].stiffness = 9;
+  world.set_joint(world.id_of_joint(1), held);
+  world.destroy_joint(world.id_of_joint(0));
+  CHECK(world.scene().actuators == scene.actuators);
 }

@@ -99,7 +99,11 @@ TEST_CASE("mjcf: actuators drive as springs and dampers, together with those of 
   CHECK(driven.target_velocity == Approx(4 * 2 / 5.0));
   CHECK(driven.stiffness == 0.0f);
   const JointAxis motor = axis_of("", R"(<motor joint="j" gear="40" ctrlrange="-1 0.5"/>)");
-  CHECK(motor == JointAxis{}); /* until a program sets its force */
+  JointAxis still; /* until a program sets its control */
+  still.damping = motor.damping;
+  CHECK(motor == still);
+  CHECK(motor.damping < 1e-9f);
+  CHECK(axis_of(R"(damping="0.25")", R"(<motor joint="j" gear="40"/>)").damping == 0.25f);
 }
 
 TEST_CASE("mjcf: two hinges turn as one after the other, whichever way their axes point")
