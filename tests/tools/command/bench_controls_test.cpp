@@ -1,5 +1,7 @@
 /* bench_controls_test.cpp - the real program: `tandem bench controls` drives robots, refuses bad use in one line. */
 #ifdef TANDEM_COMMAND
+#include <fstream>
+
 #include "tests/tools/command/command_line.h"
 
 using namespace command_line;
@@ -15,6 +17,17 @@ TEST_CASE("command: bench controls drives the hinges that have damping", "[comma
   CHECK(robot["controls"] == 4); /* knees and elbows of the built-in person, whose other joints are balls */
   CHECK(robot["step_ms"].get<double>() > 0);
   CHECK(robot["contact_points"].get<double>() > 0); /* it has fallen */
+}
+
+TEST_CASE("command: bench controls drives the actuators of a robot that has some", "[command]")
+{
+  const Scratch scratch;
+  const std::string robot = scratch.file("finger.xml");
+  std::ofstream(robot) << R"(<mujoco><worldbody><body><joint name="base"/><geom size="0.1"/><body pos="0 0 1">
+    <joint name="tip" damping="1"/><geom size="0.1"/></body></body></worldbody>
+    <actuator><motor joint="base" gear="3" ctrlrange="0 0.5"/></actuator></mujoco>)";
+  const Json json = json_of("bench controls --n 2 --steps 1 --on serial --scene '" + robot + "'");
+  CHECK(json["robots"][0]["controls"] == 1); /* not the hinge with damping */
 }
 
 TEST_CASE("command: bench controls refuses what it cannot do", "[command]")
