@@ -179,14 +179,14 @@ std::optional<MjcfActuator> drive_mjcf_joint(const XmlElement &actuator, const M
                                              LinkJoint &joint, XmlNotes &notes)
 {
   notes.add_other_attributes(actuator, actuator_attributes);
-  const bool is_motor = actuator.name == "motor";
-  MjcfActuator result = named_actuator(actuator, compiler, notes);
   const auto leave_out = [&](const std::string &why) -> std::optional<MjcfActuator> {
     notes.add(actuator, why);
     return {};
   };
   if (joint.kind == LinkJoint::Kind::ball)
     return leave_out(fmt::format("<{}> of a ball joint is not held", actuator.name));
+  const bool is_motor = actuator.name == "motor";
+  MjcfActuator result = named_actuator(actuator, compiler, notes);
   if (result.gear == 0) return leave_out(fmt::format("{} has a gear of 0, so it does nothing", result.driven.what));
   if (is_motor) drive_by_motor(actuator, compiler, result, joint.settings);
   else drive_by_servo(actuator, compiler, reference, result, joint.settings);

@@ -340,9 +340,9 @@ TEST_CASE("messages about snapshots say what is wrong", "[sanitizer]")
   other[0] = std::byte{'P'};
   CHECK(message_of(other) == "snapshot: it is no snapshot of Tandem, which begins with 'TANDEMS'");
   other = snapshot;
-  other[8] = std::byte{10};
+  other[8] = std::byte{11};
   CHECK_THAT(message_of(other),
-             ContainsSubstring("snapshot: the snapshot has format 10; Tandem ") && ContainsSubstring("reads format 9"));
+             ContainsSubstring("snapshot: the snapshot has format 11; Tandem ") && ContainsSubstring("reads format 10"));
   other = snapshot;
   other[100] ^= std::byte{1};
   CHECK_THAT(message_of(other), ContainsSubstring("do not have the hash of its header; it is damaged"));
@@ -591,6 +591,9 @@ TEST_CASE("every field of a body, a material and the settings is in a snapshot",
                     {axis, axis, axis}};
   CHECK(equal_fields(joint, Joint{}) == 0);
   CHECK(all_equal(copied(joint), joint));
+  const Actuator actuator{"knee", 1, 2, Control::target_velocity, 3, 4, 5, 6};
+  CHECK(equal_fields(actuator, Actuator{}) == 0);
+  CHECK(all_equal(copied(actuator), actuator));
 }
 
 TEST_CASE("shapes share in a restored scene what they shared, and keep every field", "[sanitizer]")
