@@ -341,8 +341,8 @@ TEST_CASE("messages about snapshots say what is wrong", "[sanitizer]")
   CHECK(message_of(other) == "snapshot: it is no snapshot of Tandem, which begins with 'TANDEMS'");
   other = snapshot;
   other[8] = std::byte{11};
-  CHECK_THAT(message_of(other),
-             ContainsSubstring("snapshot: the snapshot has format 11; Tandem ") && ContainsSubstring("reads format 10"));
+  CHECK_THAT(message_of(other), ContainsSubstring("snapshot: the snapshot has format 11; Tandem ") &&
+                                    ContainsSubstring("reads format 10"));
   other = snapshot;
   other[100] ^= std::byte{1};
   CHECK_THAT(message_of(other), ContainsSubstring("do not have the hash of its header; it is damaged"));
