@@ -31,6 +31,7 @@ void find_islands(StepLaunches &step)
     step.run(Kernel::hook_islands, {round});
     if (step.has(FEATURE_JOINTS)) step.run(Kernel::hook_joints, {round});
     if (step.has(FEATURE_COUPLINGS)) step.run(Kernel::hook_couplings, {round});
+    if (step.has_links()) step.run(Kernel::hook_links, {round});
     step.run(Kernel::jump_islands, {round});
   }
   step.run(Kernel::finish_islands, {rounds});
@@ -72,6 +73,7 @@ void find_drowsy_islands(StepLaunches &step)
 {
   step.run(Kernel::count_rest);
   if (step.has(FEATURE_JOINT_AXES)) step.run(Kernel::disturb_driven);
+  if (step.has_links()) step.run(Kernel::disturb_driven_links);
   if (!step.plan().drowsy) return;
   find_islands(step);
   step.run(Kernel::keep_islands_awake);

@@ -52,48 +52,26 @@ template <class Link> std::vector<TreePlace> places_of(const std::vector<std::ve
   return tree_places(lengths);
 }
 
-/* The tables of all trees. */
+/* The tables of all trees but where their bodies are. */
 class LinkTables {
 public:
-  LinkTables(const Scene &scene, const std::vector<std::vector<OrderedLink>> &trees, size_t room)
-      : scene_(scene), trees_(trees), places_(places_of(trees))
+  LinkTables(const Scene &scene, const JointedLinks &links) : scene_(scene), places_(links.places)
   {
-    for (uint32_t index = 0; index < room; ++index) body_link_.insert(body_link_.end(), {index, INDEX_NONE, 0});
-    size_t links = 0;
-    for (const TreePlace &place : places_) links += place.links;
-    code_.resize(links);
-    body_.resize(links);
-    row_.resize(links * LINK_ROWS);
-    range_.resize(links);
+    code_.resize(links.count);
+    row_.resize(links.count * LINK_ROWS);
+    range_.resize(links.count);
   }
 
-  /* A tree of which a link is in quarantine has no links for kernels. */
-  void add(uint32_t number, std::span<const uint32_t> index_of_body, const std::vector<BodyStatus> &status)
+  void add(uint32_t number, const std::vector<OrderedLink> &links)
   {
-    const std::vector<OrderedLink> &links = trees_[number];
-    const TreePlace &place = places_[number];
-    const bool is_out = std::any_of(links.begin(), links.end(), [&](const OrderedLink &l) {
-      return l.link.body < status.size() && status[l.link.body] == BodyStatus::quarantined;
-    });
-    place_.insert(place_.end(), {place.block, place.item, place.stride, is_out ? 0 : place.links});
-    const auto node = index_of_body[links.front().link.body];
-    for (uint32_t k = 0; k < links.size(); ++k) {
-      const uint32_t index = index_of_body[links[k].link.body];
-      body_[place.row(1, k, 0)] = index;
-      const std::array<uint32_t, LINK_WORDS> words{node, number, k};
-      std::copy(words.begin(), words.end(), body_link_.begin() + ptrdiff_t{LINK_WORDS} * index);
-      add_link(place, k, links[k]);
-    }
+    for (uint32_t k = 0; k < links.size(); ++k) add_link(places_[number], k, links[k]);
   }
   void stage(StagedUploads &uploads)
   {
     uploads.add(Buffer::link_code, std::move(code_));
     uploads.add(Buffer::link_row, std::move(row_));
     uploads.add(Buffer::link_range, std::move(range_));
-    uploads.add(Buffer::link_body, std::move(body_));
-    uploads.add(Buffer::articulation_place, std::move(place_));
     uploads.add(Buffer::articulation_ground, std::move(ground_));
-    uploads.add(Buffer::body_link, std::move(body_link_));
   }
 
 private:
@@ -112,9 +90,8 @@ private:
   }
 
   const Scene &scene_;
-  const std::vector<std::vector<OrderedLink>> &trees_;
-  std::vector<TreePlace> places_;
-  std::vector<uint32_t> code_, body_, place_, body_link_;
+  const std::vector<TreePlace> &places_;
+  std::vector<uint32_t> code_;
   std::vector<float4> row_, range_, ground_;
 };
 
@@ -317,21 +294,43 @@ void check_articulations(const Settings &settings, const Scene &scene)
   };
   if (settings.solver != Solver::soft_step)
     fail(fmt::format("the solver {} has no articulations, soft-step has them", name_of(settings.solver)));
-  if (settings.sleeping) fail("links do not sleep, and settings.sleeping is on");
   if (settings.batching != Batching::coloring && settings.batching != Batching::sequential)
     fail(fmt::format("the batching {} has no articulations, coloring and sequential have them",
                      name_of(settings.batching)));
 }
 
-void stage_articulations(StagedUploads &uploads, const Scene &scene, std::span<const uint32_t> index_of_body,
-                         size_t room, const std::vector<BodyStatus> &status)
+void stage_articulations(StagedUploads &uploads, const Scene &scene)
 {
-  std::vector<std::vector<OrderedLink>> trees;
-  for (const Articulation &articulation : scene.articulations)
-    trees.push_back(ordered_links_of(scene, articulation, scene.name));
-  LinkTables tables(scene, trees, room);
-  for (uint32_t number = 0; number < trees.size(); ++number) tables.add(number, index_of_body, status);
+  const JointedLinks links = links_of(scene);
+  LinkTables tables(scene, links);
+  for (uint32_t number = 0; number < scene.articulations.size(); ++number)
+    tables.add(number, ordered_links_of(scene, scene.articulations[number], scene.name));
   tables.stage(uploads);
+}
+
+/* A tree of which a link is in quarantine or asleep has no links for kernels. A tree sleeps as a whole. */
+void stage_bodies_of_links(StagedUploads &uploads, const JointedLinks &links, std::span<const uint32_t> index_of_body,
+                           size_t room, const std::vector<BodyStatus> &status, uint32_t awake)
+{
+  std::vector<uint32_t> body(links.count), place, body_link;
+  for (uint32_t index = 0; index < room; ++index) body_link.insert(body_link.end(), {index, INDEX_NONE, 0});
+  for (uint32_t number = 0; number < links.trees.size(); ++number) {
+    const std::vector<uint32_t> &tree = links.trees[number];
+    const TreePlace &at = links.places[number];
+    const bool is_out = std::any_of(tree.begin(), tree.end(), [&](uint32_t slot) {
+      return status_of(status, slot) == BodyStatus::quarantined || index_of_body[slot] >= awake;
+    });
+    place.insert(place.end(), {at.block, at.item, at.stride, is_out ? 0 : at.links});
+    for (uint32_t k = 0; k < tree.size(); ++k) {
+      const uint32_t index = index_of_body[tree[k]];
+      body[at.row(1, k, 0)] = index;
+      const std::array<uint32_t, LINK_WORDS> words{index_of_body[tree.front()], number, k};
+      std::copy(words.begin(), words.end(), body_link.begin() + ptrdiff_t{LINK_WORDS} * index);
+    }
+  }
+  uploads.add(Buffer::link_body, std::move(body));
+  uploads.add(Buffer::articulation_place, std::move(place));
+  uploads.add(Buffer::body_link, std::move(body_link));
 }
 
 } // namespace tandem

@@ -60,8 +60,12 @@ void check_articulation(const Scene &scene, const Articulation &articulation, co
 /* Throws InputError if the settings ask for what has no articulations. */
 void check_articulations(const Settings &settings, const Scene &scene);
 
-/* index_of_body: of each body of the scene. room: for bodies, in the buffers. */
-void stage_articulations(StagedUploads &uploads, const Scene &scene, std::span<const uint32_t> index_of_body,
-                         size_t room, const std::vector<BodyStatus> &status);
+/* The tables of all links but where their bodies are. */
+void stage_articulations(StagedUploads &uploads, const Scene &scene);
+
+/* Which bodies the links are, and which trees kernels run. index_of_body: of each body of the scene. room: for bodies,
+ * in the buffers. awake: bodies from this index on sleep. */
+void stage_bodies_of_links(StagedUploads &uploads, const JointedLinks &links, std::span<const uint32_t> index_of_body,
+                           size_t room, const std::vector<BodyStatus> &status, uint32_t awake);
 
 } // namespace tandem

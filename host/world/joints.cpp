@@ -30,8 +30,9 @@ void World::Implementation::stage_joint_tables(StagedUploads &uploads, std::span
   stage_bodies_of_joints(uploads, scene, joint_graph, joint_order.awake(), indices, first_joined_pair(sizes()));
   stage_couplings(uploads, scene, coupling_graph);
   stage_joints_of_couplings(uploads, scene, coupling_graph, joint_order.awake());
-  if (special.features & FEATURE_ARTICULATIONS)
-    stage_articulations(uploads, scene, indices, plan.bodies, slots.status());
+  if (!(special.features & FEATURE_ARTICULATIONS)) return;
+  stage_articulations(uploads, scene);
+  stage_bodies_of_links(uploads, links, indices, plan.bodies, slots.status(), special.awake);
 }
 
 /* given: slots of bodies that a call would change in a way that their joints cannot follow. */

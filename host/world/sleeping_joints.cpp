@@ -49,13 +49,13 @@ void World::Implementation::move_joint_rows(const JointOrder::Moves &moves, bool
     if (carried || !is_carried(row_of(rows.from).lifetime)) launch_moves_of_joints(launcher, rows, moved);
 }
 
-/* Tells kernels which articulations have all of their links. */
+/* Tells kernels which articulations are awake with all of their links, and where these are. */
 void World::Implementation::tell_articulations()
 {
   if (scene.articulations.empty()) return;
   if (before_joints_are_read) before_joints_are_read();
   StagedUploads uploads;
-  stage_articulations(uploads, scene, index_of_body, plan.bodies, slots.status());
+  stage_bodies_of_links(uploads, links, index_of_body, plan.bodies, slots.status(), special.awake);
   uploads.write(memory);
 }
 
@@ -66,7 +66,8 @@ void World::Implementation::tell_joints()
   StagedUploads uploads;
   stage_bodies_of_joints(uploads, scene, joint_graph, joint_order.awake(), index_of_body, first_joined_pair(sizes()));
   stage_joints_of_couplings(uploads, scene, coupling_graph, joint_order.awake());
-  if (!scene.articulations.empty()) stage_articulations(uploads, scene, index_of_body, plan.bodies, slots.status());
+  if (!scene.articulations.empty())
+    stage_bodies_of_links(uploads, links, index_of_body, plan.bodies, slots.status(), special.awake);
   for (const auto &[entry, value] : joint_entries_of(joint_order.starts()))
     uploads.add_count(static_cast<uint32_t>(entry), value);
   uploads.add(Buffer::parameters, std::vector<Parameters>{parameters_now()});
@@ -97,7 +98,7 @@ bool World::Implementation::is_joint_asleep(uint32_t joint) const
 /* Bodies have fallen asleep and lie behind those awake. */
 void World::Implementation::put_joints_to_sleep()
 {
-  if (joint_order.awake().empty()) return;
+  if (joint_order.awake().empty()) return tell_articulations();
   move_joint_rows(joint_order.put_to_sleep([&](uint32_t joint) { return is_joint_asleep(joint); }), true);
   tell_joints();
 }
@@ -110,7 +111,7 @@ void World::Implementation::wake_joints(std::span<const uint32_t> of_slots)
     const std::span<const uint32_t> joints = joint_order.of_body(slot);
     woken.insert(woken.end(), joints.begin(), joints.end());
   }
-  if (woken.empty()) return;
+  if (woken.empty()) return tell_articulations();
   std::sort(woken.begin(), woken.end());
   woken.erase(std::unique(woken.begin(), woken.end()), woken.end());
   move_joint_rows(joint_order.wake(std::move(woken)), true);

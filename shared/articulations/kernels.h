@@ -10,6 +10,7 @@
 #include "shared/articulations/tree_contacts.h"
 #ifndef TANDEM_LANES /* ITEM kernels take one item at a time */
 #include "shared/articulations/colors.h"
+#include "shared/articulations/driven.h"
 #endif
 
 #endif

@@ -8,7 +8,8 @@
  * and Vishkin, "An O(log n) parallel connectivity algorithm", 1982), in rounds of two kernels:
  *
  *   hook_islands   each contact sets the next label of the higher of its two labels to the lower one, by a minimum;
- *                  hook_joints does so for each joint, and hook_couplings for the bodies of joints that are coupled
+ *                  hook_joints does so for each joint, hook_couplings for the bodies of joints that are coupled, and
+ *                  hook_links for the links of an articulation
  *   jump_islands   each body takes the next label of its next label
  *
  * Minima of integers do not depend on order, and each kernel reads what the other one wrote, so every round has the
@@ -21,6 +22,7 @@
 #ifndef TANDEM_SHARED_SLEEPING_ISLANDS_H
 #define TANDEM_SHARED_SLEEPING_ISLANDS_H
 
+#include "shared/batching/nodes.h"
 #include "shared/sleeping/rest.h"
 
 SHARED void begin_islands_item(GLOBAL uint *island_label, GLOBAL uint *island_next, GLOBAL uint *island_awake, uint i)
@@ -73,6 +75,15 @@ SHARED void hook_couplings_item(GLOBAL const uint *coupling_a, GLOBAL const uint
     uint a = (k & 1u) != 0u ? joint_a[one] : joint_b[one], b = (k & 2u) != 0u ? joint_a[other] : joint_b[other];
     if (a != INDEX_NONE && b != INDEX_NONE) hook_bodies(body_flags, island_label, island_next, counts, round, a, b);
   }
+}
+
+/* An articulation is one island, whatever holds its root. */
+SHARED void hook_links_item(GLOBAL const uint *body_link, GLOBAL const uint *body_flags,
+                            GLOBAL const uint *island_label, GLOBAL uint *island_next, GLOBAL uint *counts, uint round,
+                            uint i)
+{
+  if (is_link(body_link, i))
+    hook_bodies(body_flags, island_label, island_next, counts, round, i, body_link[LINK_WORDS * i]);
 }
 
 /* The next label of a body may be older than its label, and both are labels of its island; the lower one counts. */

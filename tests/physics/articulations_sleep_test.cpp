@@ -1,0 +1,187 @@
+/* Articulations fall asleep and wake as one body does, lie still while they sleep, and do not sleep while a drive moves
+ * them. */
+#include <algorithm>
+
+#include <tandem/load_scene.h>
+
+#include "tests/catch.h"
+#include "tests/physics/articulate.h"
+#include "tests/physics/joints.h"
+
+using namespace tandem;
+using namespace tandem::physics_tests;
+
+namespace {
+
+Settings sleeping_settings()
+{
+  Settings settings;
+  settings.sleeping = true;
+  settings.sleep_time = 0.25f;
+  return settings;
+}
+
+World sleeping_trees(const Scene &scene) { return World(scene, sleeping_settings(), {"serial", {}, false}); }
+
+uint32_t count_asleep(const World &world, uint32_t first, uint32_t end)
+{
+  uint32_t count = 0;
+  for (uint32_t body = first; body < end; ++body) count += world.is_asleep(world.id_of(body));
+  return count;
+}
+
+/* A chain of rods on hinges with dampers along x, of which the first hangs on the world; or one that is free. */
+uint32_t add_chain(Scene &scene, const Point &at, uint32_t links, bool is_free)
+{
+  const auto first = uint32_t(scene.bodies.size());
+  Articulation tree;
+  for (uint32_t k = 0; k < links; ++k) {
+    add_body(scene, BodyType::dynamic, box_shape(0.22f, 0.08f, 0.1f), {at[0] + 0.5 * k, at[1], at[2]});
+    if (k == 0 && is_free) continue;
+    tree.joints.push_back(uint32_t(scene.joints.size()));
+    connect(scene, JointType::hinge, k == 0 ? no_body : first + k - 1, first + k,
+            {at[0] + 0.5 * k - 0.25, at[1], at[2]}, Vector::UnitZ())
+        .rotations[0]
+        .damping = 0.2f;
+  }
+  if (is_free) tree.root = first;
+  scene.articulations.push_back(tree);
+  return first;
+}
+
+std::vector<BodyState> states_of(World &world, uint32_t first, uint32_t end)
+{
+  const std::vector<BodyState> all = world.bodies();
+  return {all.begin() + first, all.begin() + end};
+}
+
+bool are_same_places(const std::vector<BodyState> &a, const std::vector<BodyState> &b)
+{
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const BodyState &one, const BodyState &other) {
+    return one.position == other.position && one.orientation == other.orientation;
+  });
+}
+
+/* A hinge about z in a tree that holds a box to the world at its centre, without gravity. */
+Scene turning_box(const JointAxis &axis)
+{
+  Scene scene = empty_scene();
+  scene.gravity = {0, 0, 0};
+  add_body(scene, BodyType::dynamic, box_shape(0.5f, 0.1f, 0.1f), {0, 0, 0});
+  connect(scene, JointType::hinge, no_body, 0, Vector::Zero(), Vector::UnitZ()).rotations[0] = axis;
+  articulate(scene);
+  return scene;
+}
+
+} // namespace
+
+TEST_CASE("trees fall asleep as one each, lie still, and wake as one when a body hits them", "[articulations]")
+{
+  Scene scene = empty_scene();
+  add_ground(scene);
+  const uint32_t first = add_chain(scene, {0, 0.1, 0}, 5, true), second = add_chain(scene, {0, 0.1, 3}, 5, true);
+  const auto ball = uint32_t(scene.bodies.size());
+  add_body(scene, BodyType::dynamic, sphere_shape(0.2f), {1.0, 12, 0});
+  World world = sleeping_trees(scene);
+  for (int step = 0; step < 60; ++step) {
+    world.step();
+    const uint32_t asleep = count_asleep(world, first, first + 5);
+    REQUIRE((asleep == 0 || asleep == 5));
+  }
+  REQUIRE(count_asleep(world, first, second + 5) == 10);
+  const std::vector<BodyState> lying = states_of(world, first, second + 5);
+  int step = 0;
+  for (; step < 120 && count_asleep(world, first, first + 5) > 0; ++step) {
+    CHECK(are_same_places(states_of(world, first, second + 5), lying));
+    world.step();
+  }
+  CHECK(step < 60);
+  CHECK(count_asleep(world, first, first + 5) == 0);
+  CHECK(count_asleep(world, second, second + 5) == 5);
+  CHECK(!are_same_places(states_of(world, first, first + 5), {lying.begin(), lying.begin() + 5}));
+  CHECK(are_same_places(states_of(world, second, second + 5), {lying.begin() + 5, lying.end()}));
+  run(world, 600);
+  CHECK(count_asleep(world, first, second + 5) == 10);
+  CHECK(count_asleep(world, ball, ball + 1) <= 1);
+  CHECK(open_joints(world).max_distance < 1e-5);
+}
+
+TEST_CASE("a chain on a held root hangs asleep, and swings on from a push as one that never slept", "[articulations]")
+{
+  Scene scene = empty_scene();
+  add_chain(scene, {0, 0, 0}, 4, false);
+  for (Joint &joint : scene.joints) joint.rotations[0].damping = 3;
+  World world = sleeping_trees(scene);
+  run(world, 1500);
+  REQUIRE(count_asleep(world, 0, 4) == 4);
+  World awake(scene, {}, {"serial", {}, false});
+  awake.set_states(awake.body_ids(), world.bodies());
+  for (World *one : {&world, &awake}) one->add_impulse(one->id_of(3), {.impulse = {0.5f, 0, 0}});
+  for (int step = 0; step < 30; ++step) {
+    world.step();
+    awake.step();
+  }
+  CHECK(count_asleep(world, 0, 4) == 0);
+  for (uint32_t body = 0; body < 4; ++body)
+    for (int axis = 0; axis < 3; ++axis)
+      CHECK(world.bodies()[body].position[axis] == Approx(awake.bodies()[body].position[axis]).margin(1e-6));
+}
+
+TEST_CASE("a drive keeps its tree awake while it moves it, however slowly, and not while it holds it",
+          "[articulations]")
+{
+  World slow = sleeping_trees(turning_box({.target_velocity = 0.02f, .motor = true, .max_force = 10}));
+  World creeping = sleeping_trees(turning_box({.target_position = 0.5f, .stiffness = 5, .damping = 100}));
+  for (int step = 0; step < 300; ++step) {
+    slow.step();
+    creeping.step();
+    REQUIRE(slow.statistics().asleep == 0);
+    REQUIRE(creeping.statistics().asleep == 0);
+  }
+  CHECK(2 * std::asin(double(slow.bodies()[0].orientation[2])) == Approx(300 * 0.02 / 60).epsilon(0.02));
+  World holding = sleeping_trees(turning_box({.motor = true, .max_force = 10}));
+  World stopped = sleeping_trees(
+      turning_box({.lower = -0.1f, .upper = 0.1f, .target_velocity = 1, .motor = true, .max_force = 10}));
+  run(holding, 120);
+  run(stopped, 120);
+  CHECK(holding.statistics().asleep == 1);
+  CHECK(stopped.statistics().asleep == 1);
+  const JointId joint = holding.id_of_joint(0);
+  holding.set_joint_axis(joint, 3, {.target_velocity = 1, .motor = true, .max_force = 10});
+  run(holding, 2);
+  CHECK(holding.statistics().asleep == 0);
+}
+
+TEST_CASE("a ragdoll in a tree settles and sleeps, and a load that a joint hangs on it keeps it in one island",
+          "[articulations]")
+{
+  Scene scene = load_scene("ragdolls:n=2,height=1", OutsideFiles::refused, Coordinates::reduced);
+  World world = sleeping_trees(scene);
+  const auto bodies = uint32_t(scene.bodies.size());
+  int step = 0;
+  for (; step < 1800 && world.statistics().asleep + 1 < bodies; ++step) world.step();
+  CAPTURE(step, world.statistics().asleep, bodies);
+  CHECK(world.statistics().asleep + 1 == bodies);
+  CHECK(open_joints(world).max_distance < 2e-6);
+}
+
+TEST_CASE("sleeping trees go on from a snapshot and from kept states with the same bits, on every backend",
+          "[articulations]")
+{
+  Scene scene = empty_scene();
+  add_ground(scene);
+  for (int k = 0; k < 3; ++k) add_chain(scene, {0, 0.1 + 0.4 * k, 2.0 * k}, 4, true);
+  add_body(scene, BodyType::dynamic, sphere_shape(0.2f), {0.5, 9, 0});
+  World world = sleeping_trees(scene), lanes(scene, sleeping_settings(), {"tbb:threads=2,lanes=8", {}, false});
+  bool slept = false, woke = false;
+  for (int step = 0; step < 200; ++step) {
+    const uint32_t before = world.statistics().asleep;
+    world.step();
+    lanes.step();
+    REQUIRE(world.state_hash() == lanes.state_hash());
+    slept = slept || world.statistics().asleep > 7;
+    woke = woke || world.statistics().asleep < before;
+  }
+  CHECK(slept);
+  CHECK(woke);
+}
