@@ -10,6 +10,7 @@
 #include <tbb/task_arena.h>
 #include <tbb/task_group.h>
 
+#include "host/runtime/interface/floating_point.h"
 #include "minicl/thread_sanitizer.h"
 #include "minicl/worker_threads.h"
 
@@ -53,6 +54,7 @@ void run_parts(size_t parts, PartFunction run)
   FirstFailure failure;
   minicl::LaunchOrder order;
   const auto run_one = [&](size_t part) TANDEM_UNWATCHED {
+    const minicl::ExactFloatingPoint environment; /* threads of TBB may have another one */
     order.items_begin();
     try {
       run(part);

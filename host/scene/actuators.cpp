@@ -28,6 +28,12 @@ float number_at(const Actuator &actuator, float control)
   return actuator.offset + product;
 }
 
+bool has_control_range(const Actuator &actuator)
+{
+  return actuator.lower <= actuator.upper && actuator.lower < Actuator::unlimited &&
+         actuator.upper > -Actuator::unlimited;
+}
+
 namespace {
 
 void check_driven_axis(const Actuator &actuator, const Scene &scene, const Checker &check)
@@ -43,15 +49,6 @@ void check_driven_axis(const Actuator &actuator, const Scene &scene, const Check
                            row_of(joint.type).name));
 }
 
-/* An actuator that is not limited on one side has an infinity there, and no other number may be infinite. */
-void check_control_range(const Actuator &actuator, const Checker &check)
-{
-  if (actuator.lower <= actuator.upper && actuator.lower < Actuator::unlimited && actuator.upper > -Actuator::unlimited)
-    return;
-  check.fail(fmt::format("controls are from {} to {}; lower must be at most upper, and without one there is no limit",
-                         actuator.lower, actuator.upper));
-}
-
 } // namespace
 
 void validate(const Scene &scene, const Actuator &actuator, size_t index, const std::string &where)
@@ -62,7 +59,9 @@ void validate(const Scene &scene, const Actuator &actuator, size_t index, const 
   check_driven_axis(actuator, scene, check);
   check.finite("offset", actuator.offset);
   check.finite("factor", actuator.factor);
-  check_control_range(actuator, check);
+  if (!has_control_range(actuator))
+    check.fail(fmt::format("controls are from {} to {}; lower must be at most upper, and without one there is no limit",
+                           actuator.lower, actuator.upper));
 }
 
 void check_actuators(const Scene &scene, const std::string &where)

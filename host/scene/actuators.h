@@ -7,6 +7,10 @@
 
 namespace tandem {
 
+/* From a lower to an upper control. One that is not limited on one side has an infinity there, and no other number may
+ * be infinite. */
+bool has_control_range(const Actuator &actuator);
+
 /* Throws InputError as validate() does, and for an actuator that sets what an earlier one sets. */
 void check_actuators(const Scene &scene, const std::string &where);
 

@@ -244,6 +244,7 @@ struct World::Implementation {
   void tell_articulations();
   void tell_joints();
   void plan_joints() noexcept;
+  bool has_rows(uint32_t joint) const;
   bool is_joint_asleep(uint32_t joint) const;
   bool sleeps_as_one(uint32_t joint) const;
   void put_joints_to_sleep();
@@ -386,7 +387,6 @@ struct World::Implementation {
   JointedLinks links;                             /* of articulations, which stay as they are */
   std::vector<JointBreak> joint_breaks;           /* of the last step */
   uint64_t joints_number = 0, joints_numbers = 0; /* the number of the present joints, and of those so far */
-  std::function<void()> before_joints_are_read;   /* of a batch: brings axes of the scene up to date */
   std::shared_ptr<const KeptJoints> kept_joints;  /* the present ones, as states that are kept share them; or null */
   BodySlots slots;
   ShapeSlots shapes;

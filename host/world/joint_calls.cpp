@@ -89,10 +89,9 @@ void World::Implementation::refuse_driven(const char *call, const char *why, std
   for (size_t k = 0; k < scene.actuators.size(); ++k) {
     const uint32_t joint = scene.actuators[k].joint;
     if (std::find(joints.begin(), joints.end(), joint) != joints.end())
-      throw InputError(
-          fmt::format("{}: joint {}: {}, because actuator {} drives it; a scene without the actuator has no "
-                      "such bound",
-                      call, joint, why, k));
+      throw InputError(fmt::format("{}: joint {}: {}, because actuator {} drives it; leave the actuator out of the "
+                                   "scene for that",
+                                   call, joint, why, k));
   }
 }
 

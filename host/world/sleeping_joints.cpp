@@ -1,6 +1,7 @@
 /* sleeping_joints.cpp - joints fall asleep and wake with their bodies: their rows change places, and what they say of
  * bodies follows these (host/world/joint_order.h). */
 #include <algorithm>
+#include <iterator>
 
 #include <fmt/format.h>
 
@@ -53,7 +54,6 @@ void World::Implementation::move_joint_rows(const JointOrder::Moves &moves, bool
 void World::Implementation::tell_articulations()
 {
   if (scene.articulations.empty()) return;
-  if (before_joints_are_read) before_joints_are_read();
   StagedUploads uploads;
   stage_bodies_of_links(uploads, links, index_of_body, plan.bodies, slots.status(), special.awake);
   uploads.write(memory);
@@ -87,10 +87,18 @@ void World::Implementation::plan_joints() noexcept
   plan.known[COUNT_COUPLINGS] = plan.known[COUNT_COMMIT_COUPLINGS] = of_couplings.back();
 }
 
-/* One of its bodies lies among the sleepers; the other one does, too, unless it cannot sleep. */
+/* A joint that is a coordinate of an articulation and no more has none. */
+bool World::Implementation::has_rows(uint32_t joint) const
+{
+  const std::vector<uint32_t> &without = joint_graph.without_rows;
+  return scene.joints[joint].enabled && !std::binary_search(without.begin(), without.end(), joint);
+}
+
+/* One of its bodies lies among the sleepers; the other one does, too, unless it cannot sleep. Joints without rows stand
+ * with those asleep at all times. */
 bool World::Implementation::is_joint_asleep(uint32_t joint) const
 {
-  if (!scene.joints[joint].enabled) return true;
+  if (!has_rows(joint)) return true;
   const auto sleeps = [&](uint32_t body) { return body != no_body && index_of_body[body] >= special.awake; };
   return sleeps(scene.joints[joint].body_a) || sleeps(scene.joints[joint].body_b);
 }
@@ -98,7 +106,7 @@ bool World::Implementation::is_joint_asleep(uint32_t joint) const
 /* Bodies have fallen asleep and lie behind those awake. */
 void World::Implementation::put_joints_to_sleep()
 {
-  if (joint_order.awake().empty()) return tell_articulations();
+  if (joint_order.awake().empty() && scene.articulations.empty()) return;
   move_joint_rows(joint_order.put_to_sleep([&](uint32_t joint) { return is_joint_asleep(joint); }), true);
   tell_joints();
 }
@@ -109,9 +117,10 @@ void World::Implementation::wake_joints(std::span<const uint32_t> of_slots)
   std::vector<uint32_t> woken;
   for (const uint32_t slot : of_slots) {
     const std::span<const uint32_t> joints = joint_order.of_body(slot);
-    woken.insert(woken.end(), joints.begin(), joints.end());
+    std::copy_if(joints.begin(), joints.end(), std::back_inserter(woken),
+                 [&](uint32_t joint) { return has_rows(joint); });
   }
-  if (woken.empty()) return tell_articulations();
+  if (woken.empty() && scene.articulations.empty()) return;
   std::sort(woken.begin(), woken.end());
   woken.erase(std::unique(woken.begin(), woken.end()), woken.end());
   move_joint_rows(joint_order.wake(std::move(woken)), true);

@@ -10,6 +10,7 @@
 #include <tandem/error.h>
 
 #include "host/runtime/parts.h"
+#include "host/scene/actuators.h"
 #include "host/scene/articulation_order.h"
 #include "host/scene/joint_buffers.h"
 #include "host/scene/joint_rows.h"
@@ -94,7 +95,7 @@ void check_maps(std::span<const Actuator> actuators)
 {
   for (size_t k = 0; k < actuators.size(); ++k) {
     const Actuator &one = actuators[k];
-    if (std::isfinite(one.offset) && std::isfinite(one.factor) && one.lower <= one.upper) continue;
+    if (std::isfinite(one.offset) && std::isfinite(one.factor) && has_control_range(one)) continue;
     throw InputError(
         fmt::format("choose_controls: entry {}: offset {:g}, factor {:g}, controls from {:g} to {:g}; finite "
                     "numbers are needed, and lower at most upper",

@@ -1,5 +1,7 @@
 /* world_joint_calls.cpp - the functions of <tandem/world.h> about joints: they come, change, are read and go. */
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -69,28 +71,16 @@ void World::set_joint_axes(std::span<const JointId> ids, std::span<const JointAx
   note(implementation_->log, RecordedCall::set_joint_axes, ids, changes);
 }
 
-namespace {
-
-/* The change of that axis among those given, or a new one to what it is. */
-JointAxisChange &change_of(const JointId &joint, uint32_t number, const JointAxis &axis, std::vector<JointId> &joints,
-                           std::vector<JointAxisChange> &changes)
-{
-  for (size_t k = 0; k < joints.size(); ++k)
-    if (joints[k] == joint && changes[k].axis == number) return changes[k];
-  joints.push_back(joint);
-  return changes.emplace_back(JointAxisChange{number, axis});
-}
-
-} // namespace
-
 void World::set_controls(std::span<const float> controls)
 {
+  const minicl::ExactFloatingPoint environment;
   const Scene &scene = implementation_->scene;
   if (controls.size() != scene.actuators.size())
     throw InputError(fmt::format("set_controls: {} controls for {} actuators; one for each is needed", controls.size(),
                                  scene.actuators.size()));
   std::vector<JointId> joints;
   std::vector<JointAxisChange> changes;
+  std::map<std::pair<uint32_t, uint32_t>, size_t> change_of; /* by joint and axis */
   for (size_t k = 0; k < controls.size(); ++k) {
     const Actuator &actuator = scene.actuators[k];
     const float number = number_at(actuator, controls[k]);
@@ -99,9 +89,12 @@ void World::set_controls(std::span<const float> controls)
           fmt::format("set_controls: control {} is {:g}; a finite number is needed, which gives its axis a "
                       "finite one",
                       k, controls[k]));
-    const JointAxis &axis = axis_of(scene.joints[actuator.joint], actuator.axis);
-    JointAxisChange &change = change_of(id_of_joint(actuator.joint), actuator.axis, axis, joints, changes);
-    controlled_number(change.to, actuator.sets) = number;
+    const auto [at, is_new] = change_of.emplace(std::pair(actuator.joint, actuator.axis), changes.size());
+    if (is_new) {
+      joints.push_back(id_of_joint(actuator.joint));
+      changes.push_back({actuator.axis, axis_of(scene.joints[actuator.joint], actuator.axis)});
+    }
+    controlled_number(changes[at->second].to, actuator.sets) = number;
   }
   set_joint_axes(joints, changes);
 }

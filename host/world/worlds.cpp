@@ -96,7 +96,6 @@ Worlds::Implementation::Implementation(std::span<const Scene> scenes, uint32_t c
   world.reset(new World(std::make_unique<World::Implementation>(
       World::Implementation::Beginning{std::move(all), used, std::move(special), BodySlots(count), count, pairs, false},
       placement)));
-  engine().before_joints_are_read = [this] { write_controls(); };
   joints = WorldJoints(engine().scene, engine().joint_graph, engine().coupling_graph, tables.worlds());
   upload_batch();
 }
@@ -252,12 +251,14 @@ void Worlds::set_joint_axes(std::span<const WorldJoint> joints, std::span<const 
 
 void Worlds::choose_controls(std::span<const ControlledAxis> axes)
 {
+  const minicl::ExactFloatingPoint environment;
   implementation_->write_controls();
   implementation_->controls = Controls(implementation_->engine(), implementation_->tables, axes);
 }
 
 void Worlds::choose_controls(std::span<const Actuator> actuators)
 {
+  const minicl::ExactFloatingPoint environment;
   implementation_->write_controls();
   implementation_->controls = Controls(implementation_->engine(), implementation_->tables, actuators);
 }
@@ -271,6 +272,7 @@ void Worlds::set_controls(std::span<const float> values)
 
 void Worlds::set_controls(std::span<const uint32_t> worlds, std::span<const float> values)
 {
+  const minicl::ExactFloatingPoint environment;
   for (const uint32_t world : worlds) implementation_->check_world("set_controls", world);
   const size_t controls = implementation_->controls.count();
   if (values.size() != worlds.size() * controls)

@@ -6,7 +6,7 @@
  * through the tree.
  *
  *   rows in reach    drives, friction, held joints, and stops that a joint may come to in this substep
- *   rows found late  stops that a joint would pass because the rows in reach have pushed it
+ *   rows found late  of joints that would pass a stop because the rows in reach have pushed them; in biased passes
  *
  * Most stops are far away. Trees beside each other each go on to their own next row, so lanes and work-items wait for
  * the most rows that a tree has in reach, not for all joints that have a row in some tree.

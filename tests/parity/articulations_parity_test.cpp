@@ -58,6 +58,32 @@ TEST_CASE("parity on CPU: articulations in a heap, held and free, past the last 
   require_parity(tree_crowd(3, 6, 0), cpu_backends(), 10, in_sequence);
 }
 
+/* Of nine trees beside each other some motors are fast enough to take the other link past its stop in one pass. */
+TEST_CASE("parity on CPU: stops that the motor of another joint brings into reach", "[articulations]")
+{
+  Scene scene = empty_scene({0, 0, 0});
+  for (uint32_t tree = 0; tree < 9; ++tree) {
+    const Point at{0, 0, 2.0 * tree};
+    for (int k = 0; k < 2; ++k) add_body(scene, BodyType::dynamic, box_shape(0.5f, 0.05f, 0.05f), at);
+    const Vector center = vector_of(at);
+    connect(scene, JointType::hinge, no_body, 2 * tree, center, Vector::UnitZ()).rotations[0] = {
+        .target_velocity = 150.0f * float(tree % 4), .motor = true};
+    JointAxis &stops = connect(scene, JointType::hinge, 2 * tree, 2 * tree + 1, center, Vector::UnitZ()).rotations[0];
+    stops.lower = -0.5f, stops.upper = 0.5f;
+    scene.joints.back().collide = false;
+    Articulation articulation;
+    articulation.joints = {2 * tree, 2 * tree + 1};
+    scene.articulations.push_back(articulation);
+  }
+  require_parity(scene, cpu_backends(), 12);
+  World world(scene, {}, {"serial", {}, false});
+  world.step();
+  for (uint32_t tree = 0; tree < 9; ++tree) {
+    const BodyState driven = world.bodies()[2 * tree], carried = world.bodies()[2 * tree + 1];
+    CHECK(double(carried.angular_velocity[2]) >= 0.9 * double(driven.angular_velocity[2]));
+  }
+}
+
 TEST_CASE("parity on CPU: a tree that alone moves, below the last colour and past it")
 {
   for (const uint32_t links : {40u, 75u}) require_parity(lone_chain(links), cpu_backends(), 25, watched());

@@ -1,5 +1,7 @@
 /* An application may set flush-to-zero or another rounding mode on any thread, before a world is made or while it
  * lives. The bits must not change, and the application's setting must stay. */
+#include <tandem/worlds.h>
+
 #include "tests/parity/parity.h"
 
 #if defined(__x86_64__)
@@ -72,6 +74,42 @@ void require_indifference(const std::string &backend)
 }
 
 } // namespace
+
+TEST_CASE("parity on CPU: numbers that controls set do not depend on the settings of floating point")
+{
+  constexpr uint32_t count = 700;
+  Scene scene;
+  scene.shapes = {box_shape(0.5f, 0.5f, 0.5f)};
+  scene.bodies.resize(1);
+  Joint rail;
+  rail.type = JointType::slider;
+  rail.body_b = 0;
+  rail.directions[0].damping = 0.1f;
+  scene.joints = {rail};
+  scene.actuators = {{.joint = 0, .axis = 0, .offset = 0.1f, .factor = 0.3f}};
+  std::vector<float> controls(count);
+  for (uint32_t world = 0; world < count; ++world) controls[world] = 0.001f * float(world);
+  const auto hashes_under = [&](unsigned word) {
+    const ControlWord mode(word);
+    set_on_workers(word);
+    Worlds worlds(scene, count, {}, {"tbb:threads=2", {}});
+    worlds.choose_controls(worlds.scene(0).actuators);
+    worlds.set_controls(controls);
+    World world(scene, {}, {"serial", {}});
+    world.set_controls(std::vector<float>{controls[333]});
+    worlds.step();
+    world.step();
+    CHECK(worlds.bodies(333)[0].linear_velocity == world.bodies()[0].linear_velocity);
+    return worlds.state_hashes();
+  };
+  const std::vector<uint64_t> expected = hashes_under(usual);
+  CHECK(expected[1] != expected[2]);
+  for (const unsigned word : {flushes_to_zero, rounds_to_zero, rounds_up}) {
+    CAPTURE(word);
+    CHECK(hashes_under(word) == expected);
+  }
+  set_on_workers(usual);
+}
 
 TEST_CASE("parity on CPU: the settings of floating point under test have effect")
 {

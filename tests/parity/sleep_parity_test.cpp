@@ -48,6 +48,39 @@ Scene heaps()
   return scene;
 }
 
+/* The same with two chains in reduced coordinates that lie on the ground, of which the balls and impulses wake one or
+ * the other, and a third that hangs from the world above a heap. */
+Scene heaps_and_trees()
+{
+  Scene scene = heaps();
+  scene.name = "heaps and trees";
+  scene.shapes.push_back(box_shape(0.22f, 0.1f, 0.15f));
+  for (uint32_t tree = 0; tree < 3; ++tree) {
+    const auto first = uint32_t(scene.bodies.size());
+    Articulation articulation;
+    for (uint32_t k = 0; k < 4; ++k) {
+      Body link;
+      link.shape = uint32_t(scene.shapes.size()) - 1;
+      link.position = {0.5 * k + 2.0 * tree, tree == 2 ? 5.0 : 0.1, tree == 2 ? 2.0 : 1.5};
+      scene.bodies.push_back(link);
+      if (k == 0 && tree != 2) continue;
+      Joint joint;
+      joint.type = k % 2 ? JointType::hinge : JointType::ball;
+      joint.body_a = k == 0 ? no_body : first + k - 1;
+      joint.body_b = first + k;
+      joint.position_a = k == 0 ? Point{link.position[0] - 0.25, 5, 2} : Point{0.25, 0, 0};
+      joint.position_b = {-0.25, 0, 0};
+      joint.orientation_a = joint.orientation_b = {0, -0.70710678f, 0, 0.70710678f}; /* x of the frames along z */
+      if (k % 2) joint.rotations[0].damping = 0.3f;
+      articulation.joints.push_back(uint32_t(scene.joints.size()));
+      scene.joints.push_back(joint);
+    }
+    if (tree != 2) articulation.root = first;
+    scene.articulations.push_back(articulation);
+  }
+  return scene;
+}
+
 ComparisonRequest request_on(std::vector<std::string> backends, uint64_t steps, Broadphase broadphase)
 {
   ComparisonRequest request;
@@ -61,9 +94,9 @@ ComparisonRequest request_on(std::vector<std::string> backends, uint64_t steps, 
   return request;
 }
 
-void require_equal(const ComparisonRequest &request)
+void require_equal(const ComparisonRequest &request, const Scene &scene = heaps())
 {
-  const Comparison comparison = compare_backends(heaps(), request);
+  const Comparison comparison = compare_backends(scene, request);
   if (comparison.first_difference) FAIL(describe(*comparison.first_difference));
   CHECK(comparison.steps == request.steps);
 }
@@ -87,10 +120,21 @@ TEST_CASE("parity on OpenCL: islands that fall asleep and wake")
   require_equal(request_on({"tbb", "cl:pocl"}, 120, Broadphase::grid));
 }
 
+TEST_CASE("parity on CPU: articulations that fall asleep and wake", "[articulations]")
+{
+  require_equal(request_on(cpu_backends(), 160, Broadphase::grid), heaps_and_trees());
+}
+
+TEST_CASE("parity on PoCL: articulations that fall asleep and wake", "[articulations]")
+{
+  require_pocl();
+  require_equal(request_on({"tbb", "cl:pocl"}, 120, Broadphase::grid), heaps_and_trees());
+}
+
 TEST_CASE("a snapshot with sleepers goes on with the same bits on another backend", "[sanitizer]")
 {
   const Settings settings = request_on({"serial"}, 0, Broadphase::grid).settings;
-  World world(heaps(), settings, {"tbb:threads=2,lanes=4", {}});
+  World world(GENERATE(false, true) ? heaps_and_trees() : heaps(), settings, {"tbb:threads=2,lanes=8", {}});
   for (uint64_t step = 0; step < 130; ++step) {
     disturb(world, step);
     world.step();

@@ -241,9 +241,6 @@ TEST_CASE("what articulations cannot have is refused by name", "[articulations]"
   other.materials[0].rolling_friction = 0.1f;
   refuses(other, "material 0: has rolling");
   Settings settings;
-  settings.sleeping = true;
-  CHECK_THAT(refusal(scene, settings), Catch::Matchers::ContainsSubstring("links do not sleep"));
-  settings = {};
   settings.solver = Solver::xpbd;
   CHECK(refusal(scene, settings) != "accepted");
   settings = {};

@@ -75,7 +75,7 @@ double milliseconds_from(Clock::time_point start, Clock::time_point end)
 class DrivenWorlds {
 public:
   DrivenWorlds(const Scene &scene, uint32_t worlds, const Placement &placement)
-      : worlds_(scene, worlds, settings(), placement), actuators_(driving_actuators(scene)),
+      : worlds_(scene, worlds, settings(), placement), actuators_(driving_actuators(worlds_.scene(0))),
         values_(worlds * actuators_.size())
   {
     worlds_.choose_controls(actuators_);

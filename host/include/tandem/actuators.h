@@ -21,8 +21,8 @@ enum class Control : uint32_t { force, target_position, target_velocity };
 /* The name of each, in the order of the enum: "force" and so on. */
 TANDEM_API std::span<const char *const> control_names();
 
-/* The number of the axis is offset + factor * control, where a control beyond lower or upper counts as that limit. Of
- * two actuators of one axis each sets another number. */
+/* The number of the axis is offset + factor * control, where a control beyond lower or upper counts as that limit. No
+ * two actuators set the same number of one axis. */
 struct Actuator {
   static constexpr float unlimited = std::numeric_limits<float>::infinity();
 
@@ -36,7 +36,8 @@ struct Actuator {
   friend bool operator==(const Actuator &, const Actuator &) = default;
 };
 
-/* The number of the axis at a control; a control that is not finite is returned as it is, for the caller to refuse. */
+/* The number of the axis at a control. lower must be at most upper. A control that is not finite is returned as it is,
+ * for the caller to refuse. */
 TANDEM_API float number_at(const Actuator &actuator, float control);
 
 } // namespace tandem

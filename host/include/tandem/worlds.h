@@ -130,7 +130,7 @@ public:
    * or axis, if an axis is given twice with the same control, and if its drive cannot follow: a force needs damping (a
    * little is enough), a target position stiffness, a target velocity damping or a motor. */
   void choose_controls(std::span<const ControlledAxis> axes);
-  /* The same for actuators, such as those of the scene. set_controls then takes their controls, as number_at does, with
+  /* The same for actuators, such as those of scene(0). set_controls then takes their controls, as number_at does, with
    * the bits that these numbers have with the axes chosen. */
   void choose_controls(std::span<const Actuator> actuators);
   /* From the next step on, as set_joint_axes does it for few joints, with the same bits, but quickly for many:

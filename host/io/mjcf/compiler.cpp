@@ -68,6 +68,19 @@ bool is_turn(const std::string &key)
   return std::any_of(std::begin(turns), std::end(turns), [&](const char *turn) { return key == turn; });
 }
 
+/* Elements of <actuator> are ways to write one: what any of them says of these in a class holds for all. */
+constexpr const char *actuators[] = {"general",  "motor",  "position", "velocity", "intvelocity",
+                                     "cylinder", "damper", "muscle",   "adhesion"};
+constexpr const char *of_all_actuators[] = {"ctrllimited", "ctrlrange", "forcelimited", "forcerange", "gear"};
+
+/* As MuJoCo has it, 0 0 is no range unless the file says that it limits. */
+bool is_no_range(const std::vector<double> &range) { return range[0] == 0 && range[1] == 0; }
+
+bool is_among(std::span<const char *const> names, const std::string &name)
+{
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
 } // namespace
 
 void MjcfCompiler::read(const XmlElement &compiler, XmlNotes &notes)
@@ -114,7 +127,7 @@ RigidFrame MjcfCompiler::frame_of(const XmlElement &element) const
 bool MjcfCompiler::is_limited(const XmlElement &element, const char *limited, const char *range) const
 {
   const std::string text = element.text(limited).value_or("auto");
-  if (text == "auto") return autolimits && element.has(range);
+  if (text == "auto") return autolimits && element.has(range) && !is_no_range(element.numbers(range, 2, 2));
   const bool is = element.boolean_or(limited, false);
   if (is && !element.has(range)) element.fail(fmt::format("{} is true, and {} is missing", limited, range));
   return is;
@@ -130,8 +143,12 @@ void MjcfDefaults::read(const XmlElement &top)
 void MjcfDefaults::read_class(const XmlElement &element, const std::string &name, Class inherited)
 {
   for (const XmlElement &child : element.children)
-    if (child.name != "default")
-      for (const auto &[key, value] : child.attributes) inherited[child.name][key] = value;
+    for (const auto &[key, value] : child.attributes) {
+      if (child.name == "default") break;
+      inherited[child.name][key] = value;
+      if (!is_among(actuators, child.name) || !is_among(of_all_actuators, key)) continue;
+      for (const char *other : actuators) inherited[other][key] = value;
+    }
   for (const auto &[of_element, attributes] : inherited) inherited_ += attributes.size();
   if (inherited_ > most_attributes)
     element.fail(

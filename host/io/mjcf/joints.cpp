@@ -28,10 +28,11 @@ constexpr const char *joint_attributes[] = {"name",
 constexpr const char *actuator_attributes[] = {"name", "class",       "joint",     "gear",         "kp",
                                                "kv",   "ctrllimited", "ctrlrange", "forcelimited", "forcerange"};
 
-/* A batch sets forces of axes with damping alone (Worlds::choose_controls). What an axis without any gets brakes
- * nothing: at 1 m/s or rad/s this share of the largest force, s/m or s/rad. */
+/* A batch sets forces of axes with damping alone (Worlds::choose_controls). What an axis gets for that brakes next to
+ * nothing: at 1 m/s or rad/s this share of the largest force, s/m or s/rad. Ten times that force can be set. */
 constexpr double damping_of_motor = 1e-11;
-constexpr double bound_of_unlimited_motor = 1e5, least_bound_of_motor = 1; /* N, or N m */
+constexpr double control_of_unlimited_motor = 1000;
+constexpr double least_bound_of_motor = 1, largest_bound_of_motor = 1e5; /* N, or N m */
 
 /* A spring or damper is a strength and where it pulls to. Two of them are one with the sum of the strengths, which
  * pulls to the mean. */
@@ -129,10 +130,10 @@ void drive_by_motor(const XmlElement &element, const MjcfCompiler &compiler, Mjc
   actuator.factor = round_to_float(motor.gear);
   actuator.lower = std::clamp(actuator.lower, round_to_float(lower), round_to_float(upper));
   actuator.upper = std::clamp(actuator.upper, round_to_float(lower), round_to_float(upper));
-  if (axis.damping > 0) return;
-  const double most = std::abs(motor.gear) * largest_in({double{actuator.lower}, double{actuator.upper}});
-  const double bound = std::isfinite(most) ? std::max(most, least_bound_of_motor) : bound_of_unlimited_motor;
-  axis.damping = round_to_float(damping_of_motor * bound);
+  const double most = largest_in({double{actuator.lower}, double{actuator.upper}});
+  const double bound = std::clamp(std::abs(motor.gear) * (std::isfinite(most) ? most : control_of_unlimited_motor),
+                                  least_bound_of_motor, largest_bound_of_motor);
+  axis.damping = std::max(axis.damping, round_to_float(damping_of_motor * bound));
 }
 
 void drive_by_servo(const XmlElement &element, const MjcfCompiler &compiler, double reference, MjcfActuator &servo,
@@ -192,7 +193,7 @@ std::optional<MjcfActuator> drive_mjcf_joint(const XmlElement &actuator, const M
   else drive_by_servo(actuator, compiler, reference, result, joint.settings);
   if (!is_motor && result.strength == 0)
     return leave_out(fmt::format("the control of {} does nothing, because its {} is 0", result.driven.what,
-                                 actuator.name == "position" ? "kp" : "kv"));
+                                 actuator.name == "position" ? "stiffness, kp gear^2," : "damping, kv gear^2,"));
   if (is_motor) notes.add(actuator, "a <motor> exerts nothing until a program sets its control");
   return result;
 }

@@ -413,4 +413,11 @@ TEST_CASE("a joint that an actuator drives stays, and its axis stays free")
   world.set_joint(world.id_of_joint(1), held);
   world.destroy_joint(world.id_of_joint(0));
   CHECK(world.scene().actuators == scene.actuators);
+  Worlds worlds(world.scene(), 2, {}, {"serial", {}}); /* whose scenes lack the joint */
+  const std::vector<Actuator> there = worlds.scene(0).actuators;
+  REQUIRE(there.at(0).joint == 0);
+  worlds.choose_controls(there);
+  worlds.set_controls(std::vector<float>{0, 0.25f});
+  CHECK(worlds.scene(1).joints[0].rotations[0].target_position == number_at(scene.actuators[0], 0.25f));
+  CHECK(worlds.scene(1).joints[0].rotations[0].stiffness == 9);
 }

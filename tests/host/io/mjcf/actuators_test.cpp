@@ -52,6 +52,27 @@ TEST_CASE("mjcf: the forcerange of a motor bounds its control, before the gear")
   CHECK((alone.lower == -1 && alone.upper == 2));
 }
 
+TEST_CASE("mjcf: what a class says of any actuator holds for all of them, and 0 0 is no range unless it limits")
+{
+  const auto drive = [](const std::string &defaults, const std::string &drive) {
+    const std::string text = "<mujoco><default>" + defaults +
+                             R"(</default><worldbody><body><joint name="j"/><geom size="1"/></body></worldbody>)" +
+                             "<actuator>" + drive + "</actuator></mujoco>";
+    return parse_scene_mjcf(text, mjcf_path, OutsideFiles::refused, Coordinates::maximal).actuators.at(0);
+  };
+  const Actuator motor = drive(R"(<general ctrlrange="-1 1"/>)", R"(<motor joint="j" gear="40"/>)");
+  CHECK((motor.lower == -1 && motor.upper == 1 && motor.factor == 40));
+  const Actuator inner = drive(R"(<general ctrlrange="-2 2"/><default class="c"><velocity gear="4"/></default>)",
+                               R"(<position class="c" joint="j" kp="3"/>)");
+  CHECK((inner.lower == -2 && inner.factor == 0.25f));
+  const Actuator own = drive(R"(<motor ctrlrange="-1 1" forcerange="-9 9"/>)", R"(<motor joint="j" ctrlrange="0 5"/>)");
+  CHECK((own.lower == 0 && own.upper == 5));
+  const Actuator open = drive("", R"(<motor joint="j" ctrlrange="0 0" forcerange="0 0"/>)");
+  CHECK((open.lower == -Actuator::unlimited && open.upper == Actuator::unlimited));
+  const Actuator shut = drive("", R"(<motor joint="j" ctrllimited="true" ctrlrange="0 0"/>)");
+  CHECK((shut.lower == 0 && shut.upper == 0));
+}
+
 TEST_CASE("mjcf: a position sets its target by gear and reference")
 {
   const Actuator place = only_actuator(R"(ref="90")", R"(<position joint="j" kp="3" kv="0.5" gear="2"/>)");
@@ -117,7 +138,8 @@ TEST_CASE("mjcf: an actuator whose control does nothing is noted")
   };
   notes("", R"(<motor name="m" joint="j" gear="0"/>)", R"(<motor> "m" has a gear of 0, so it does nothing)");
   notes("", R"(<position joint="j" gear="0"/>)", "a <position> has a gear of 0");
-  notes("", R"(<position joint="j" kp="0"/>)", "the control of a <position> does nothing, because its kp is 0");
+  notes("", R"(<position joint="j" kp="0"/>)",
+        "the control of a <position> does nothing, because its stiffness, kp gear^2, is 0");
   notes("", R"(<velocity name="v" joint="j" kv="0"/>)", R"(the control of <velocity> "v" does nothing)");
   notes(R"(type="ball")", R"(<motor joint="j"/>)", "<motor> of a ball joint is not held");
 }

@@ -102,8 +102,13 @@ TEST_CASE("mjcf: actuators drive as springs and dampers, together with those of 
   JointAxis still; /* until a program sets its control */
   still.damping = motor.damping;
   CHECK(motor == still);
-  CHECK(motor.damping < 1e-9f);
-  CHECK(axis_of(R"(damping="0.25")", R"(<motor joint="j" gear="40"/>)").damping == 0.25f);
+  CHECK(motor.damping == Approx(1e-11f * 40));
+  const auto damping_with = [&](const char *joint, const char *drive) { return axis_of(joint, drive).damping; };
+  CHECK(damping_with(R"(damping="0.25")", R"(<motor joint="j" gear="40"/>)") == 0.25f);
+  CHECK(damping_with(R"(damping="1e-13")", R"(<motor joint="j" gear="40"/>)") == Approx(4e-7f));
+  CHECK(damping_with("", R"(<motor joint="j"/>)") == Approx(1e-8f));
+  CHECK(damping_with("", R"(<motor joint="j" ctrlrange="-1e10 1e10"/>)") == Approx(1e-6f));
+  CHECK(damping_with("", R"(<motor joint="j" ctrlrange="-0.1 0.1"/>)") == Approx(1e-11f));
 }
 
 TEST_CASE("mjcf: two hinges turn as one after the other, whichever way their axes point")
