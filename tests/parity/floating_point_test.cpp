@@ -86,7 +86,7 @@ TEST_CASE("parity on CPU: numbers that controls set do not depend on the setting
   rail.body_b = 0;
   rail.directions[0].damping = 0.1f;
   scene.joints = {rail};
-  scene.actuators = {{.joint = 0, .axis = 0, .offset = 0.1f, .factor = 0.3f}};
+  scene.actuators = {{.name = "cart", .joint = 0, .axis = 0, .offset = 0.1f, .factor = 0.3f}};
   std::vector<float> controls(count);
   for (uint32_t world = 0; world < count; ++world) controls[world] = 0.001f * float(world);
   const auto hashes_under = [&](unsigned word) {
