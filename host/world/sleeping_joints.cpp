@@ -94,11 +94,10 @@ bool World::Implementation::has_rows(uint32_t joint) const
   return scene.joints[joint].enabled && !std::binary_search(without.begin(), without.end(), joint);
 }
 
-/* One of its bodies lies among the sleepers; the other one does, too, unless it cannot sleep. Joints without rows stand
- * with those asleep at all times. */
+/* One of its bodies lies among the sleepers; the other one does, too, unless it cannot sleep. */
 bool World::Implementation::is_joint_asleep(uint32_t joint) const
 {
-  if (!has_rows(joint)) return true;
+  if (!scene.joints[joint].enabled) return true;
   const auto sleeps = [&](uint32_t body) { return body != no_body && index_of_body[body] >= special.awake; };
   return sleeps(scene.joints[joint].body_a) || sleeps(scene.joints[joint].body_b);
 }
@@ -157,12 +156,12 @@ void World::Implementation::take_joint_order(std::vector<uint32_t> joints)
     if (!sleeps_as_one(joint))
       throw InputError(
           fmt::format("snapshot: the bodies of joint {} do not sleep in one island; the file is damaged", joint));
-  const auto asleep = std::find_if(joints.begin(), joints.end(), [&](uint32_t joint) {
-    return joint < scene.joints.size() && is_joint_asleep(joint);
-  });
+  const auto stands_behind = [&](uint32_t joint) {
+    return joint < scene.joints.size() && (is_joint_asleep(joint) || !has_rows(joint));
+  };
+  const auto asleep = std::find_if(joints.begin(), joints.end(), stands_behind);
   const auto awake = static_cast<size_t>(asleep - joints.begin());
-  const bool others_sleep = std::all_of(
-      asleep, joints.end(), [&](uint32_t joint) { return joint < scene.joints.size() && is_joint_asleep(joint); });
+  const bool others_sleep = std::all_of(asleep, joints.end(), stands_behind);
   if (!others_sleep || !joint_order.is_order(joints, awake))
     throw InputError("snapshot: the joints that sleep are not those of the bodies that do; the file is damaged");
   joint_order.take(std::move(joints), awake);
