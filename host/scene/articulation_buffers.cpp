@@ -299,9 +299,8 @@ void check_articulations(const Settings &settings, const Scene &scene)
                      name_of(settings.batching)));
 }
 
-void stage_articulations(StagedUploads &uploads, const Scene &scene)
+void stage_articulations(StagedUploads &uploads, const Scene &scene, const JointedLinks &links)
 {
-  const JointedLinks links = links_of(scene);
   LinkTables tables(scene, links);
   for (uint32_t number = 0; number < scene.articulations.size(); ++number)
     tables.add(number, ordered_links_of(scene, scene.articulations[number], scene.name));

@@ -61,7 +61,7 @@ void check_articulation(const Scene &scene, const Articulation &articulation, co
 void check_articulations(const Settings &settings, const Scene &scene);
 
 /* The tables of all links but where their bodies are. */
-void stage_articulations(StagedUploads &uploads, const Scene &scene);
+void stage_articulations(StagedUploads &uploads, const Scene &scene, const JointedLinks &links);
 
 /* Which bodies the links are, and which trees kernels run. index_of_body: of each body of the scene. room: for bodies,
  * in the buffers. awake: bodies from this index on sleep. */

@@ -75,6 +75,20 @@ std::array<uint32_t, 6> axis_kinds_of(const Joint &joint)
 
 uint32_t kind_of_axis(const Joint &joint, size_t axis) { return axis_kinds_of(joint)[axis]; }
 
+namespace {
+
+/* The friction and the damper of a cone brake the way around it, too. */
+JointAxis around_cone(const JointAxis &cone)
+{
+  JointAxis around;
+  around.friction = cone.friction;
+  around.damping = cone.damping;
+  if (around.damping > 0) around.max_force = cone.max_force;
+  return around;
+}
+
+} // namespace
+
 std::vector<UsedAxis> axes_used_by(const Joint &joint)
 {
   const std::array<uint32_t, 6> kinds = axis_kinds_of(joint);
@@ -82,6 +96,10 @@ std::vector<UsedAxis> axes_used_by(const Joint &joint)
   std::vector<UsedAxis> used;
   for (size_t k = 0; k < kinds.size(); ++k)
     if (kinds[k] != JOINT_AXIS_NONE && is_used(*axes[k])) used.push_back({kinds[k], *axes[k]});
+  if (joint.type == JointType::cone_twist) {
+    const JointAxis around = around_cone(joint.rotations[1]);
+    if (is_used(around)) used.push_back({JOINT_AXIS_AROUND, around});
+  }
   if (crosses(joint.type)) {
     JointAxis held;
     held.lower = held.upper = 0;

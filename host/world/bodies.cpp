@@ -344,7 +344,9 @@ void World::Implementation::place_among_others(const Arrival &arrival)
   bring_forward(appended); /* between those awake and those asleep */
   counted_bodies = special.awake;
   forget_kept(memory);
-  if (!sleepers.empty()) sleepers_changed();
+  if (sleepers.empty()) return;
+  if (!scene.articulations.empty()) tell_joints(); /* links that sleep have made room, and joined pairs are by index */
+  sleepers_changed();
 }
 
 namespace {

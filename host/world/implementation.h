@@ -7,7 +7,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -285,7 +284,8 @@ struct World::Implementation {
   template <class Check> void check_in_world(const Joint &joint, uint32_t slot, const Check &check) const;
   void check_axes(const Joint &joint, uint32_t slot) const;
   std::vector<uint32_t> slots_of_joints(const char *call, std::span<const JointId> ids) const;
-  void take_broken_joints();
+  std::vector<uint32_t> list_broken_joints();
+  void break_joints(std::span<const uint32_t> broken);
 
   /* --- what joints do: joint_readings.cpp ------------------------------------------------------------------------- */
   std::vector<JointReading> read_joints(std::span<const JointId> ids);

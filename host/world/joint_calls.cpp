@@ -356,6 +356,15 @@ void World::Implementation::check_axes(const Joint &joint, uint32_t slot) const
                  [&](uint32_t number, const std::string &where) { validate(scene, joint, number, where); });
 }
 
+namespace {
+
+bool has_same_axes(const Joint &one, const Joint &other)
+{
+  return one.directions == other.directions && one.rotations == other.rotations;
+}
+
+} // namespace
+
 void World::Implementation::set_joint_axes(std::span<const JointId> ids, std::span<const JointAxisChange> changes)
 {
   if (ids.size() != changes.size())
@@ -382,7 +391,9 @@ void World::Implementation::set_joint_axes(std::span<const JointId> ids, std::sp
     });
   std::vector<uint32_t> distinct;
   std::vector<Joint> in_order;
-  for (const auto &[slot, k] : of_slot) distinct.push_back(slot), in_order.push_back(joints[k]);
+  for (const auto &[slot, k] : of_slot)
+    if (!has_same_axes(joints[k], scene.joints[slot])) distinct.push_back(slot), in_order.push_back(joints[k]);
+  if (distinct.empty()) return; /* so nobody wakes */
   write_joint_axes(distinct, std::move(in_order));
 }
 
@@ -430,24 +441,30 @@ void World::Implementation::stage_changed_axes(StagedUploads &uploads, std::span
     stage_axes_at(uploads, scene.joints[joint], joint_order.place_of(joint), scene.joints.size());
 }
 
-/* The step has been made. Its contacts keep their colours, or lose them, before the next one. */
-void World::Implementation::take_broken_joints()
+/* The last step has counted them; their loads are still in the buffers. */
+std::vector<uint32_t> World::Implementation::list_broken_joints()
 {
   joint_breaks.clear();
-  if (!(scene_features & FEATURE_JOINT_BREAKS) || plan.known[COUNT_BROKEN_JOINTS] == 0) return;
+  if (!(scene_features & FEATURE_JOINT_BREAKS) || plan.known[COUNT_BROKEN_JOINTS] == 0) return {};
   const std::span<const uint32_t> awake = joint_order.awake();
   const auto loads = memory.read<float4>(Buffer::joint_load, awake.size());
-  std::vector<Joint> joints = scene.joints;
   std::vector<uint32_t> broken;
   for (size_t place = 0; place < awake.size(); ++place) {
-    Joint &joint = joints[awake[place]];
+    const Joint &joint = scene.joints[awake[place]];
     if (!(loads[place].x > joint.break_force || loads[place].y > joint.break_torque)) continue;
-    joint.enabled = false;
     broken.push_back(awake[place]);
     joint_breaks.push_back({joint_slots.id_of(awake[place]), loads[place].x, loads[place].y});
   }
   std::sort(joint_breaks.begin(), joint_breaks.end(),
             [](const JointBreak &one, const JointBreak &other) { return one.joint.index < other.joint.index; });
+  return broken;
+}
+
+/* Contacts keep their colours, or lose them, before the next step. */
+void World::Implementation::break_joints(std::span<const uint32_t> broken)
+{
+  std::vector<Joint> joints = scene.joints;
+  for (const uint32_t joint : broken) joints[joint].enabled = false;
   put_joints(std::move(joints), joint_slots, broken);
 }
 

@@ -31,7 +31,7 @@ void World::Implementation::stage_joint_tables(StagedUploads &uploads, std::span
   stage_couplings(uploads, scene, coupling_graph);
   stage_joints_of_couplings(uploads, scene, coupling_graph, joint_order.awake());
   if (!(special.features & FEATURE_ARTICULATIONS)) return;
-  stage_articulations(uploads, scene);
+  stage_articulations(uploads, scene, links);
   stage_bodies_of_links(uploads, links, indices, plan.bodies, slots.status(), special.awake);
 }
 

@@ -7,7 +7,7 @@
  * move to the end of those awake and change places with sleepers that lie there; their pairs are appended to the cached
  * ones. The table in which those awake look for sleepers is changed where others sleep than before, and sorted anew
  * when much of it is out of order (shared/sleeping/sleeper_table.h). So waking costs what moves, and falling asleep
- * what was awake; neither costs what sleeps.
+ * what was awake; neither costs what sleeps, but for the places of the links of articulations, which are told anew.
  *
  * A large body that wakes is one of the small ones from then on: the broadphase finds the same pairs, and takes longer.
  *

@@ -153,7 +153,7 @@ void World::Implementation::take_joint_order(std::vector<uint32_t> joints)
 {
   if (joints.empty() && (sleepers.empty() || scene.joints.empty())) return;
   for (uint32_t joint = 0; joint < scene.joints.size(); ++joint)
-    if (!sleeps_as_one(joint))
+    if ((has_rows(joint) || is_in_tree(joint)) && !sleeps_as_one(joint))
       throw InputError(
           fmt::format("snapshot: the bodies of joint {} do not sleep in one island; the file is damaged", joint));
   const auto stands_behind = [&](uint32_t joint) {

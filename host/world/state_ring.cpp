@@ -373,6 +373,7 @@ void World::Implementation::go_back(uint32_t states)
     if (has_rows_of_joints(row_of(now))) memory.put_back(previous, then.buffers[i]); /* of those not enabled, too */
   }
   if (then.sleepers) put_back_sleepers(then);
+  else tell_articulations(); /* links that have gone into quarantine since then are back */
   forget_kept(memory);
   ring.rewind(states);
   set_elsewhere.clear();

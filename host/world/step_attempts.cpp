@@ -57,12 +57,14 @@ void World::Implementation::step(const StepLimits &limits)
   keep_state_of_step();
 }
 
-/* Joints break, and bodies fall asleep. Rows move in place, so half of it cannot be undone. */
+/* Bodies fall asleep as the step has chosen, and joints break, which wakes what hangs on them. Rows move in place, so
+ * half of it cannot be undone. */
 void World::Implementation::end_step()
 {
   try {
-    take_broken_joints();
+    const std::vector<uint32_t> broken = list_broken_joints();
     if (settings.sleeping) put_to_sleep();
+    if (!broken.empty()) break_joints(broken);
   } catch (const std::exception &error) {
     lost =
         fmt::format("joints could not break or bodies could not be put to sleep after step {} ({}); the world cannot "

@@ -6,7 +6,7 @@
  *        x of a ^   ^ x of b          twist    about x, -pi .. pi
  *                \  |  /              swing y  about y, of the swing alone; swing z about z
  *                 \ | / cone          cone     the angle between the axes x, 0 .. pi
- *                  \|/
+ *                  \|/               around   no coordinate but a speed: of the way around the cone
  *
  * After Dobrowolski, "Swing-twist decomposition in Clifford algebra", 2015. Universal joints and wheels keep the axis y
  * of frame b at right angles to x of frame a; that coordinate, `cross`, is 0. They turn about both without end:
@@ -98,28 +98,39 @@ SHARED joint_coordinate distance_coordinate(joint j, joint_frames f)
   return c;
 }
 
+/* About which the angle of the cone grows. across: the sine of half of that angle. */
+SHARED vec3 cone_axis(joint_swing s, real across)
+{
+  mask leans = across > LEAST_SWING;
+  real inverse = R(1.0) / choose(leans, across, (real)R(1.0));
+  return choose3(leans, make_vec3(R(0.0), s.swing_y * inverse, s.swing_z * inverse), make_vec3(R(0.0), R(1.0), R(0.0)));
+}
+
+/* About which x of b goes around x of a: at right angles to the axes of the twist and of the cone. */
+SHARED vec3 axis_around_cone(joint_swing s, real across, vec3 cone)
+{
+  return make_vec3(-across, s.swing_w * cone.z, -(s.swing_w * cone.y));
+}
+
 /* The rotations; in axes of frame a. */
 SHARED joint_coordinate rotation_coordinate(joint_frames f, uint_lanes kind)
 {
   joint_swing s = swing_of(f.relative);
   real across = square_root(s.swing_y * s.swing_y + s.swing_z * s.swing_z);
-  mask leans = across > LEAST_SWING;
-  real inverse = R(1.0) / choose(leans, across, (real)R(1.0));
   vec3 none = make_vec3(R(0.0), R(0.0), R(0.0));
-  vec3 twist = twist_axis(s.x_of_b);
+  vec3 twist = twist_axis(s.x_of_b), cone = cone_axis(s, across);
   real share = R(1.0) / (R(1.0) + s.swing_w), y = s.swing_y * share, z = s.swing_z * share;
   joint_coordinate c = {twist_of(f.relative), none, twist};
   mask is_y = kind == (uint_lanes)(uint)JOINT_AXIS_SWING_Y, is_z = kind == (uint_lanes)(uint)JOINT_AXIS_SWING_Z,
-       is_cone = kind == (uint_lanes)(uint)JOINT_AXIS_CONE;
+       is_cone = kind == (uint_lanes)(uint)JOINT_AXIS_CONE, is_around = kind == (uint_lanes)(uint)JOINT_AXIS_AROUND;
   c.value = choose(is_y, R(4.0) * arc_tangent(s.swing_y, R(1.0) + s.swing_w), c.value);
   c.value = choose(is_z, R(4.0) * arc_tangent(s.swing_z, R(1.0) + s.swing_w), c.value);
   c.value = choose(is_cone, R(2.0) * arc_tangent(across, s.swing_w), c.value);
+  c.value = zero_if(is_around, c.value);
   c.turn = choose3(is_y, swing_y_axis(y, z, twist), c.turn);
   c.turn = choose3(is_z, swing_z_axis(y, z, twist), c.turn);
-  c.turn = choose3(
-      is_cone,
-      choose3(leans, make_vec3(R(0.0), s.swing_y * inverse, s.swing_z * inverse), make_vec3(R(0.0), R(1.0), R(0.0))),
-      c.turn);
+  c.turn = choose3(is_cone, cone, c.turn);
+  c.turn = choose3(is_around, axis_around_cone(s, across, cone), c.turn);
   return c;
 }
 
@@ -162,7 +173,7 @@ SHARED joint_coordinate spin_coordinate(joint_frames f)
 
 SHARED mask is_rotation(uint_lanes kind)
 {
-  return (kind >= (uint_lanes)(uint)JOINT_AXIS_TWIST) & (kind <= (uint_lanes)(uint)JOINT_AXIS_CONE);
+  return (kind >= (uint_lanes)(uint)JOINT_AXIS_TWIST) & (kind <= (uint_lanes)(uint)JOINT_AXIS_AROUND);
 }
 
 SHARED joint_coordinate choose_coordinate(mask m, joint_coordinate a, joint_coordinate b)

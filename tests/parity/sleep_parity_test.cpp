@@ -1,5 +1,7 @@
 /* Islands that fall asleep and wake: every kernel of every step has the same bits on every backend, and so do the rows
  * that move between two steps. */
+#include <algorithm>
+
 #include "tests/parity/parity.h"
 
 using namespace tandem;
@@ -134,12 +136,18 @@ TEST_CASE("parity on PoCL: articulations that fall asleep and wake", "[articulat
 TEST_CASE("a snapshot with sleepers goes on with the same bits on another backend", "[sanitizer]")
 {
   const Settings settings = request_on({"serial"}, 0, Broadphase::grid).settings;
-  World world(GENERATE(false, true) ? heaps_and_trees() : heaps(), settings, {"tbb:threads=2,lanes=8", {}});
+  const bool has_trees = GENERATE(false, true);
+  const Scene scene = has_trees ? heaps_and_trees() : heaps();
+  World world(scene, settings, {"tbb:threads=2,lanes=8", {}});
   for (uint64_t step = 0; step < 130; ++step) {
     disturb(world, step);
     world.step();
   }
   REQUIRE(world.statistics().asleep > 0);
+  const auto sleeps = [&](const Articulation &tree) {
+    return tree.root != no_body && world.is_asleep(world.id_of(tree.root));
+  };
+  REQUIRE(std::any_of(scene.articulations.begin(), scene.articulations.end(), sleeps) == has_trees);
   const std::vector<std::byte> bytes = world.save();
   World other(bytes, {"serial", {}});
   CHECK(other.state_hash() == world.state_hash());
@@ -159,13 +167,23 @@ TEST_CASE("a snapshot with sleepers goes on with the same bits on another backen
 TEST_CASE("the scene of the parity of sleep falls asleep and wakes", "[sanitizer]")
 {
   const ComparisonRequest request = request_on({"serial"}, 600, Broadphase::grid);
-  World world(heaps(), request.settings, {"serial", {}});
-  uint32_t fell = 0, woke = 0;
+  const bool has_trees = GENERATE(false, true);
+  const auto first_link = uint32_t(heaps().bodies.size());
+  World world(has_trees ? heaps_and_trees() : heaps(), request.settings, {"serial", {}});
+  uint32_t fell = 0, woke = 0, links_fell = 0, links_woke = 0;
+  const auto is_link = [&](const BodyId &id) {
+    return has_trees && id.index >= first_link && id.index < first_link + 12;
+  };
   for (uint64_t step = 0; step < request.steps; ++step) {
     disturb(world, step);
     world.step();
-    for (const SleepEvent &event : world.sleep_events()) event.asleep ? ++fell : ++woke;
+    for (const SleepEvent &event : world.sleep_events()) {
+      event.asleep ? ++fell : ++woke;
+      if (is_link(event.body)) event.asleep ? ++links_fell : ++links_woke;
+    }
   }
   CHECK(fell > 20);
   CHECK(woke > 12);
+  CHECK((links_fell >= 12) == has_trees);
+  CHECK((links_woke >= 4) == has_trees);
 }

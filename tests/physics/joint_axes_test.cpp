@@ -268,6 +268,30 @@ TEST_CASE("joint axes: a cone stops every swing at its angle, and the twist at i
   CHECK(widest < cone + 0.02);
 }
 
+/* A cube that turns about all axes alike, so that its angular velocity keeps its direction and the brake finds it there
+ * while the angle is small. */
+TEST_CASE("joint axes: friction and damper of a cone brake the way around it, too, at any angle", "[physics]")
+{
+  const bool is_damper = GENERATE(false, true), in_tree = GENERATE(false, true);
+  const double lean = GENERATE(0.0, 0.5, 1.5), start = 0.5, brake = 2, lasts = 0.05;
+  CAPTURE(is_damper, in_tree, lean);
+  Held held(JointType::cone_twist);
+  held.body().orientation = {0, 0, float(std::sin(lean / 2)), float(std::cos(lean / 2))};
+  held.body().angular_velocity = {float(-start * std::sin(lean / 2)), float(start * std::cos(lean / 2)), 0};
+  held.joint.rotations[1] =
+      is_damper ? JointAxis{.damping = float(brake)} : JointAxis{.friction = float(brake * moment)};
+  held.scene.joints = {held.joint};
+  if (in_tree) held.scene.articulations.push_back({"", {0}, no_body, {}});
+  World world(held.scene, settings_with(0.001, 1), {});
+  run(world, int(std::lround(lasts / 0.001)));
+  const Vec3 &turns = world.bodies()[0].angular_velocity;
+  const double left = std::hypot(turns[0], turns[1], turns[2]),
+               expected = is_damper ? start * std::exp(-brake / moment * lasts) : start - brake * lasts;
+  CHECK(std::abs(left - expected) < 0.01 * start);
+  run(world, is_damper ? 6000 : 600);
+  CHECK(std::abs(world.bodies()[0].angular_velocity[1]) < 1e-4);
+}
+
 TEST_CASE("joint axes: a universal joint turns about its two axes and holds the third", "[physics]")
 {
   Held held(JointType::universal);

@@ -73,6 +73,7 @@ TEST_CASE("coordinates of joints change as their axes say, by finite differences
     const Vector x = relative * Vector::UnitX(), y = relative * Vector::UnitY();
     const double twist = frames.coordinate(JOINT_AXIS_TWIST).value, swing = std::acos(x.x());
     for (uint32_t kind = 0; kind < JOINT_AXIS_NONE; ++kind) {
+      if (kind == JOINT_AXIS_AROUND) continue; /* it has a speed alone */
       const bool swings = kind == JOINT_AXIS_TWIST || kind == JOINT_AXIS_SWING_Y || kind == JOINT_AXIS_SWING_Z ||
                           kind == JOINT_AXIS_CONE;
       const bool crosses = kind == JOINT_AXIS_TURN || kind == JOINT_AXIS_SPIN;
@@ -82,6 +83,27 @@ TEST_CASE("coordinates of joints change as their axes say, by finite differences
       CAPTURE(trial, kind, swing, value);
       REQUIRE(std::abs(error_of_speed(frames, motion, kind)) < 2e-4);
     }
+  }
+}
+
+TEST_CASE("a turn about the axis around a cone changes neither the cone nor the twist, and moves x of b around it")
+{
+  Random random(11);
+  for (int trial = 0; trial < 500; ++trial) {
+    const Quaterniond a = any_rotation(random), relative = any_rotation(random);
+    const MovingFrames frames{Vector::Zero(), a, a * relative};
+    const Vector x = relative * Vector::UnitX();
+    const double swing = std::acos(x.x()), twist = frames.coordinate(JOINT_AXIS_TWIST).value;
+    if (swing < 0.05 || swing > 2.6 || std::abs(twist) > 3) continue;
+    const Vector around = vector_of_three(frames.coordinate(JOINT_AXIS_AROUND).turn);
+    constexpr double angle = 1e-4;
+    const MovingFrames after = frames.after({Vector::Zero(), Vector::UnitX() * 1e-30, around}, angle);
+    CAPTURE(trial, swing);
+    CHECK(around.norm() == Approx(1));
+    CHECK(std::abs(after.coordinate(JOINT_AXIS_CONE).value - swing) < 1e-7);
+    CHECK(std::abs(after.coordinate(JOINT_AXIS_TWIST).value - twist) < 1e-7);
+    const Vector moved = a.conjugate() * (after.b * Vector::UnitX()) - x;
+    CHECK(moved.norm() == Approx(angle * std::cos(swing / 2)).epsilon(1e-3));
   }
 }
 
