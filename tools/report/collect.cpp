@@ -288,6 +288,7 @@ Report collect_report(const ReportRequest &request)
   report.scenes = run_scenes(std::move(plans), request);
   if (request.with_problems)
     report.contact_curves = contact_curves(request.problems, request.backends.front(), request.quick);
+  if (request.with_joints) report.joints = joint_curves(request.backends.front(), request.quick);
   if (request.with_rounding) collect_rounding(report);
   return report;
 }

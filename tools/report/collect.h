@@ -8,6 +8,7 @@
 #include "host/verify/rounding.h"
 #include "tools/report/equal_error.h"
 #include "tools/report/experiment.h"
+#include "tools/report/joint_curves.h"
 #include "tools/report/pareto.h"
 
 namespace tandem {
@@ -16,10 +17,10 @@ struct ReportRequest {
   bool quick = false;
   std::vector<const ReportCase *> cases;
   std::vector<std::string> solvers;
-  std::vector<std::string> backends; /* every scene runs on each; contact problems on the first */
+  std::vector<std::string> backends; /* every scene runs on each; contact problems and joints on the first */
   std::optional<Metric> metric;      /* instead of each scene's own */
   std::vector<std::string> problems; /* files of contact problems */
-  bool with_problems = true, with_rounding = true;
+  bool with_problems = true, with_joints = true, with_rounding = true;
   std::string command; /* as it was typed */
 };
 
@@ -70,6 +71,7 @@ struct Report {
   ReportRequest request;
   std::vector<SceneReport> scenes;
   std::vector<ContactCurve> contact_curves;
+  JointReport joints;
   RoundingReport rounding;
   std::string machine, date;
   std::string estimate; /* the estimate that was printed before the start */

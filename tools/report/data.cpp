@@ -163,6 +163,21 @@ Json curves_json(const std::vector<ContactCurve> &curves)
   return list;
 }
 
+Json joints_json(const JointReport &joints)
+{
+  Json curves = Json::array();
+  for (const JointCurve &curve : joints.curves) {
+    Json points = Json::array();
+    for (const JointCurve::Point &point : curve.points)
+      points.push_back({{"substeps", point.substeps}, {"error", json_number(point.error)}});
+    curves.push_back({{"scene", curve.scene},
+                      {"method", curve.method},
+                      {"order", curve.order() ? Json(*curve.order()) : Json(nullptr)},
+                      {"points", points}});
+  }
+  return {{"uncertainty", json_number(joints.uncertainty)}, {"curves", curves}};
+}
+
 } // namespace
 
 std::string report_csv(const Report &report)
@@ -190,6 +205,7 @@ Json report_json(const Report &report)
           {"estimate", report.estimate},
           {"scenes", scenes},
           {"contact_problems", curves_json(report.contact_curves)},
+          {"joints", joints_json(report.joints)},
           {"rounding",
            {{"scene", report.rounding.scene},
             {"far", report.rounding.far},

@@ -24,7 +24,7 @@ struct ReportOptions {
   JsonOutput json;
 };
 
-constexpr const char *part_names[] = {"scenes", "problems", "rounding"};
+constexpr const char *part_names[] = {"scenes", "problems", "joints", "rounding"};
 
 std::string case_names()
 {
@@ -51,7 +51,7 @@ void add_options(CLI::App &parser, ReportOptions &options)
   parser.add_option("--scenes", options.scenes, "some of: " + case_names())->type_name("NAME,NAME,...");
   parser.add_option("--solvers", options.solvers, fmt::format("some of: {}", fmt::join(choice_names<Solver>(), ", ")))
       ->type_name("NAME,NAME,...");
-  parser.add_option("--on", options.on, "every scene on each of these; contact problems on the first")
+  parser.add_option("--on", options.on, "every scene on each of these; contact problems and joints on the first")
       ->type_name("B,B,...")
       ->capture_default_str();
   parser.add_option("--parts", options.parts, fmt::format("some of: {} (default: all)", fmt::join(part_names, ", ")))
@@ -146,6 +146,7 @@ ReportRequest request_of(const ReportOptions &options)
   const auto wanted = [&](const char *part) { return std::find(parts.begin(), parts.end(), part) != parts.end(); };
   if (wanted("scenes")) request.cases = cases_of(options);
   request.with_problems = wanted("problems");
+  request.with_joints = wanted("joints");
   request.with_rounding = wanted("rounding");
   if (request.with_problems)
     request.problems =
@@ -181,6 +182,8 @@ void write_report(const Report &report, const ReportOptions &options)
     for (const BackendRuns &each : scene.backends)
       fmt::print("{} on {}: {}\n", scene.source->name, each.backend,
                  pick_sentence(each.runs, each.picks, scene.metric));
+  for (const JointCurve &curve : report.joints.curves)
+    fmt::print("{} in {}: {}\n", curve.scene, curve.method, order_sentence(curve));
   fmt::print("\n{} (charts and tables), report.csv and report.json beside it\n", file("report.html"));
 }
 

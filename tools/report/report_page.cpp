@@ -228,6 +228,41 @@ void add_contact_problems(Page &page, const Report &report)
   for (const auto &[problem, chart] : charts) page.chart(chart);
 }
 
+/* A line of first order through the first point of a curve. */
+ChartSeries first_order_beside(const JointCurve &curve)
+{
+  ChartSeries line{"first order"};
+  line.markers = false;
+  line.dashed = true;
+  const JointCurve::Point &first = curve.points.front(), &last = curve.points.back();
+  line.points = {{first.substep(), first.error}, {last.substep(), first.error * last.substep() / first.substep()}};
+  return line;
+}
+
+void add_joints(Page &page, const JointReport &joints)
+{
+  page.section("Trees of links");
+  page.paragraph(fmt::format(
+      "The same tree in reduced coordinates, in maximal coordinates with joints of a quarter of the substeps' rate, "
+      "and "
+      "as a dense system of equations in double, known to {:.1g} m: distances of all links, root mean square.",
+      joints.uncertainty));
+  std::map<std::string, Chart> charts;
+  for (const JointCurve &curve : joints.curves) {
+    const auto [at, is_new] = charts.try_emplace(
+        curve.scene,
+        Chart{curve.scene, {"substep, s", AxisScale::logarithmic}, {"distance, m", AxisScale::logarithmic}});
+    if (is_new) at->second.series.push_back(first_order_beside(curve));
+    ChartSeries series{curve.method};
+    for (const JointCurve::Point &point : curve.points)
+      series.points.push_back({point.substep(), point.error, fmt::format("{} substeps", point.substeps)});
+    at->second.series.push_back(series);
+  }
+  for (const auto &[scene, chart] : charts) page.chart(chart);
+  for (const JointCurve &curve : joints.curves)
+    page.paragraph(fmt::format("{} in {}: {}.", curve.scene, curve.method, order_sentence(curve)));
+}
+
 using RoundingKey = std::tuple<Kernel, Buffer, std::string>;
 
 std::map<RoundingKey, const RoundingRow *> rows_by_key(const RoundingTable &table)
@@ -283,6 +318,7 @@ std::vector<std::string> left_out_of(const ReportRequest &request)
     if (std::find(request.solvers.begin(), request.solvers.end(), solver) == request.solvers.end())
       names.push_back(solver);
   if (!request.with_problems) names.push_back("contact problems");
+  if (!request.with_joints) names.push_back("joints");
   if (!request.with_rounding) names.push_back("rounding");
   return names;
 }
@@ -303,6 +339,7 @@ std::string report_page(const Report &report)
   if (!report.scenes.empty()) add_summary(page, report);
   for (const SceneReport &scene : report.scenes) add_scene(page, scene);
   add_contact_problems(page, report);
+  if (report.request.with_joints) add_joints(page, report.joints);
   if (report.request.with_rounding) add_rounding(page, report.rounding);
   page.section("Made by");
   page.commands({report.request.command});

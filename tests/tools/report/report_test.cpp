@@ -406,7 +406,7 @@ TEST_CASE("report: the page stands alone and shows charts and tables in a browse
   if (browser().empty()) tests::skip("no Chromium: the page was not looked at");
   const std::string dom = page_in_browser("?sort=2.5&sort=4.5&sort=4.5");
   const size_t runs = 2 * settings_grid("soft-step", Grid::quick).size(); /* of a scene, on two backends */
-  CHECK(occurrences(dom, "<svg") == 5); /* two scenes on two backends, a contact problem */
+  CHECK(occurrences(dom, "<svg") == 7); /* two scenes on two backends, a contact problem, two trees of links */
   CHECK(occurrences(dom, "ms per step at equal error") == 2);
   CHECK(occurrences(dom, "<g class=\"point") > 2 * runs);
   CHECK(occurrences(dom, "<table") >= 6);
