@@ -331,7 +331,8 @@ void World::Implementation::number_bodies()
   for (uint32_t i = 0; i < special.order.size(); ++i) index_of_body[special.order[i]] = i;
 }
 
-/* Before the first step the host knows no counts, so launches are sized as if the buffers were full. */
+/* Before the first step, and where buffers have grown, the host knows no counts, so launches are sized as if the buffers
+ * were full, and a kind of pairs or a colour had an eighth of it. Ranges that seemed empty would be one work-group's. */
 void World::Implementation::guess_counts() noexcept
 {
   auto &known = plan.known;
@@ -343,8 +344,11 @@ void World::Implementation::guess_counts() noexcept
   known[COUNT_COMMIT_BODIES] = special.awake;
   known[COUNT_COMMIT_BODIES_PLUS_ONE] = special.awake + 1;
   known[COUNT_CELLS_PLUS_ONE] = plan.capacity_cells + 1;
-  for (uint32_t color = 0; color <= COLOR_LIMIT; ++color)
-    known[COLOR_START + color] = static_cast<uint32_t>(uint64_t{plan.capacity_pairs} * color / 8);
+  const auto sixteenths = [&](uint32_t n) { return static_cast<uint32_t>(uint64_t{plan.capacity_pairs} * n / 16); };
+  for (uint32_t kind = 0; kind <= PAIR_KIND_NONE; ++kind) known[KIND_START + kind] = sixteenths(2 * kind);
+  for (uint32_t color = 0; color <= COLOR_LIMIT; ++color) known[COLOR_START + color] = sixteenths(2 * color);
+  for (uint32_t color = 0; color < COLOR_LIMIT; ++color)
+    known[LINK_COLOR_START + color] = known[WORLD_COLOR_START + color] = sixteenths(2 * color + 1);
 }
 
 /* A module that reads or writes solver_force in any of its kernels takes part in the forces of a substep. */

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <tandem/error.h>
+#include <tandem/load_scene.h>
 #include <tandem/world.h>
 
 #include "host/base/random.h"
@@ -62,6 +63,42 @@ TEST_CASE("a step for whose pairs room was reserved does not run again, and has 
     CHECK(plain.statistics().overflow > 0);
     CHECK(ready.statistics().overflow == 0);
   }
+}
+
+/* A device gives a launch as many work-groups as it expects items, and one if it expects none. */
+TEST_CASE("launches over kinds of pairs and over colours expect items before a step has counted any, and after growth")
+{
+  Settings settings;
+  settings.broadphase = Broadphase::grid;
+  World world(load_scene("shapes:n=12"), settings, {"serial", {}});
+  uint32_t ranges = 0, without = 0;
+  world.set_observer([&](const Launch &launch) {
+    const bool of_kind = launch.first >= KIND_START && launch.first < KIND_START + uint32_t{PAIR_KIND_NONE},
+               of_color = launch.first >= COLOR_START && launch.first < COLOR_START + COLOR_LIMIT;
+    if (!of_kind && !of_color) return;
+    ++ranges;
+    without += launch.expected == 0 ||
+               launch.expected > world.memory().read<uint32_t>(Buffer::counts, 1, CAPACITY_PAIRS).front();
+  });
+  world.step();
+  CHECK(ranges > 10);
+  CHECK(without == 0);
+  Scene mixed = parity::imploding_boxes();
+  mixed.shapes.push_back(sphere_shape(0.3f));
+  for (size_t body = 0; body < mixed.bodies.size(); body += 5)
+    if (mixed.bodies[body].type == BodyType::dynamic) mixed.bodies[body].shape = uint32_t(mixed.shapes.size()) - 1;
+  World growing(mixed, settings, {"serial", {}});
+  bool has_grown = false;
+  uint32_t of_boxes = 0;
+  growing.set_observer([&](const Launch &launch) {
+    if (launch.kernel == Kernel::collide_box_box) of_boxes = launch.expected;
+  });
+  for (int step = 0; step < 20 && !has_grown; ++step) {
+    growing.step();
+    has_grown = growing.statistics().overflow > 0;
+  }
+  REQUIRE(has_grown);
+  CHECK(of_boxes > 0);
 }
 
 TEST_CASE("the first step that outgrows its room makes hardly more than it needs, and each later one an eighth more")
