@@ -27,7 +27,7 @@ struct TreeScene {
   Scene scene;
 };
 
-/* A box of a rod's shape from `from` towards `along` on a hinge at `from`, which the body `parent` or the world holds. */
+/* A rod from `from` along `along`, on a hinge at `from` that the body `parent` or the world holds. */
 uint32_t add_rod(Scene &scene, uint32_t parent, const Vector3 &from, const Vector3 &along, const Vector3 &axis)
 {
   const auto quat_of = [](const Eigen::Quaterniond &q) {
