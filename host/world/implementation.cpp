@@ -331,8 +331,9 @@ void World::Implementation::number_bodies()
   for (uint32_t i = 0; i < special.order.size(); ++i) index_of_body[special.order[i]] = i;
 }
 
-/* Before the first step, and where buffers have grown, the host knows no counts, so launches are sized as if the buffers
- * were full, and a kind of pairs or a colour had an eighth of it. Ranges that seemed empty would be one work-group's. */
+/* Before the first step, and where buffers have grown, the host knows no counts. Launches are then sized as if the
+ * buffers were full and each kind of pairs and each colour had an eighth of them; a range that seems empty gets one
+ * work-group. */
 void World::Implementation::guess_counts() noexcept
 {
   auto &known = plan.known;
