@@ -77,7 +77,8 @@ uint32_t kind_of_axis(const Joint &joint, size_t axis) { return axis_kinds_of(jo
 
 namespace {
 
-/* The friction and the damper of a cone brake the way around it, too. */
+/* The friction and the damper of a cone brake the way around it, too. A cone that is only limited has the row as well,
+ * so that a call which gives it friction changes no tables. */
 JointAxis around_cone(const JointAxis &cone)
 {
   JointAxis around;
@@ -96,10 +97,8 @@ std::vector<UsedAxis> axes_used_by(const Joint &joint)
   std::vector<UsedAxis> used;
   for (size_t k = 0; k < kinds.size(); ++k)
     if (kinds[k] != JOINT_AXIS_NONE && is_used(*axes[k])) used.push_back({kinds[k], *axes[k]});
-  if (joint.type == JointType::cone_twist) {
-    const JointAxis around = around_cone(joint.rotations[1]);
-    if (is_used(around)) used.push_back({JOINT_AXIS_AROUND, around});
-  }
+  if (joint.type == JointType::cone_twist && is_used(joint.rotations[1]))
+    used.push_back({JOINT_AXIS_AROUND, around_cone(joint.rotations[1])});
   if (crosses(joint.type)) {
     JointAxis held;
     held.lower = held.upper = 0;

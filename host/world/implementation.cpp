@@ -332,8 +332,8 @@ void World::Implementation::number_bodies()
 }
 
 /* Before the first step, and where buffers have grown, the host knows no counts. Launches are then sized as if the
- * buffers were full and each kind of pairs and each colour had an eighth of them; a range that seems empty gets one
- * work-group. */
+ * buffers were full and each kind of pairs and each colour of contacts had an eighth of them; a range that seems empty
+ * gets one work-group. */
 void World::Implementation::guess_counts() noexcept
 {
   auto &known = plan.known;

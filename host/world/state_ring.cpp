@@ -11,6 +11,7 @@
 #include "host/pipeline/broadphases/broadphase.h"
 #include "host/pipeline/scene_counts.h"
 #include "host/runtime/interface/floating_point.h"
+#include "host/scene/articulation_buffers.h"
 #include "host/world/implementation.h"
 #include "host/world/placed_joints.h"
 
@@ -351,6 +352,8 @@ void World::Implementation::go_back(uint32_t states)
       stage_joints_again(uploads, others_sleep ? sleepers_then->order : special.order);
     }
     stage_roster(uploads, then, changes, others_sleep ? sleepers_then->index_of_body : index_of_body);
+    if (!then.sleepers && !scene.articulations.empty()) /* links that went into quarantine since then are back */
+      stage_bodies_of_links(uploads, links, index_of_body, plan.bodies, then.slots->status(), special.awake);
     uploads.prepare(memory);
   } catch (...) {
     swap_bodies(scene, changes, false);
@@ -373,7 +376,6 @@ void World::Implementation::go_back(uint32_t states)
     if (has_rows_of_joints(row_of(now))) memory.put_back(previous, then.buffers[i]); /* of those not enabled, too */
   }
   if (then.sleepers) put_back_sleepers(then);
-  else tell_articulations(); /* links that have gone into quarantine since then are back */
   forget_kept(memory);
   ring.rewind(states);
   set_elsewhere.clear();

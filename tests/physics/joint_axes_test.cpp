@@ -273,7 +273,7 @@ TEST_CASE("joint axes: a cone stops every swing at its angle, and the twist at i
 TEST_CASE("joint axes: friction and damper of a cone brake the way around it, too, at any angle", "[physics]")
 {
   const bool is_damper = GENERATE(false, true), in_tree = GENERATE(false, true);
-  const double lean = GENERATE(0.0, 0.5, 1.5), start = 0.5, brake = 2, lasts = 0.05;
+  const double lean = GENERATE(0.5, 1.5), start = 0.5, brake = 2, lasts = 0.05;
   CAPTURE(is_damper, in_tree, lean);
   Held held(JointType::cone_twist);
   held.body().orientation = {0, 0, float(std::sin(lean / 2)), float(std::cos(lean / 2))};

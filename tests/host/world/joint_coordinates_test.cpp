@@ -1,5 +1,7 @@
 /* The axes about which the coordinates of a joint change are derivatives of these coordinates: finite differences in
  * double are the oracle. An axis that is not one lets limits and springs do work that no coordinate shows. */
+#include <numbers>
+
 #include "host/base/random.h"
 #include "host/world/joint_coordinates.h"
 #include "shared/joints/joint_codes.h"
@@ -104,6 +106,21 @@ TEST_CASE("a turn about the axis around a cone changes neither the cone nor the 
     CHECK(std::abs(after.coordinate(JOINT_AXIS_TWIST).value - twist) < 1e-7);
     const Vector moved = a.conjugate() * (after.b * Vector::UnitX()) - x;
     CHECK(moved.norm() == Approx(angle * std::cos(swing / 2)).epsilon(1e-3));
+  }
+}
+
+TEST_CASE("the axes of the twist, the cone and around it stand at right angles without a swing, and at half a turn")
+{
+  for (const double swing : {0.0, std::numbers::pi}) {
+    const MovingFrames frames{Vector::Zero(), Quaterniond::Identity(),
+                              Quaterniond(Eigen::AngleAxisd(swing, Vector::UnitZ()))};
+    const Vector cone = vector_of_three(frames.coordinate(JOINT_AXIS_CONE).turn),
+                 around = vector_of_three(frames.coordinate(JOINT_AXIS_AROUND).turn);
+    CAPTURE(swing);
+    CHECK(cone.norm() == Approx(1));
+    CHECK(around.norm() == Approx(1));
+    CHECK(std::abs(cone.dot(around)) < 1e-6);
+    CHECK(std::abs(around.x()) == Approx(swing == 0 ? 0.0 : 1.0).margin(1e-6));
   }
 }
 

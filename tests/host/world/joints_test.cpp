@@ -72,6 +72,35 @@ TEST_CASE("axes of joints of a batch that are refused are named by the numbers o
   CHECK_NOTHROW(set(1, 0, {.friction = 2}));
 }
 
+TEST_CASE("a cone of a batch that is limited gets friction and loses it, as that of a world alone does")
+{
+  Scene scene = two_joined_and_one_free();
+  scene.joints[0].type = JointType::cone_twist;
+  scene.joints[0].rotations[1].upper = 0.5f;
+  scene.bodies[1].angular_velocity = {0.3f, 0.5f, 0.7f};
+  Worlds batch(std::vector<Scene>(2, scene), {}, {"serial", {}});
+  World alone(scene, {}, {"serial", {}});
+  const auto bodies_of_batch = [&] {
+    const std::vector<BodyState> all = batch.bodies();
+    return std::vector<BodyState>(all.begin() + ptrdiff_t(scene.bodies.size()), all.end());
+  };
+  for (const float friction : {0.0f, 2.0f, 0.0f}) {
+    const JointAxisChange change{4, {.upper = 0.5f, .friction = friction}};
+    batch.set_joint_axes(std::vector<WorldJoint>{{1, 0}}, std::span(&change, 1));
+    alone.set_joint_axis(alone.id_of_joint(0), 4, change.to);
+    for (int step = 0; step < 5; ++step) {
+      batch.step();
+      alone.step();
+    }
+    CAPTURE(friction);
+    const std::vector<BodyState> of_batch = bodies_of_batch(), of_world = alone.bodies();
+    for (size_t body = 0; body < of_world.size(); ++body) {
+      CHECK(of_batch[body].position == of_world[body].position);
+      CHECK(of_batch[body].angular_velocity == of_world[body].angular_velocity);
+    }
+  }
+}
+
 TEST_CASE("the frequency and the damping of joints are checked")
 {
   const Scene scene = two_joined_and_one_free();

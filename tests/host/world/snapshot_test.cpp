@@ -340,9 +340,9 @@ TEST_CASE("messages about snapshots say what is wrong", "[sanitizer]")
   other[0] = std::byte{'P'};
   CHECK(message_of(other) == "snapshot: it is no snapshot of Tandem, which begins with 'TANDEMS'");
   other = snapshot;
-  other[8] = std::byte{11};
-  CHECK_THAT(message_of(other), ContainsSubstring("snapshot: the snapshot has format 11; Tandem ") &&
-                                    ContainsSubstring("reads format 10"));
+  other[8] = std::byte{12};
+  CHECK_THAT(message_of(other), ContainsSubstring("snapshot: the snapshot has format 12; Tandem ") &&
+                                    ContainsSubstring("reads format 11"));
   other = snapshot;
   other[100] ^= std::byte{1};
   CHECK_THAT(message_of(other), ContainsSubstring("do not have the hash of its header; it is damaged"));
