@@ -276,7 +276,7 @@ TEST_CASE("a tree that has gone into quarantine is back with the state from befo
 namespace {
 
 /* A base holds a tree of one box, which sleeps, and another box by a joint that breaks at 100 N and is kept awake until
- * then; a third box is pushed in step 30. Returns the step in which that one falls asleep, or 0. */
+ * then; a third box is pushed in step 30. */
 constexpr uint32_t box_of_tree = 1, box_that_breaks_off = 2, pushed_box = 3;
 
 Scene tree_beside_a_breaking_joint()
@@ -296,6 +296,7 @@ void push(World &world, uint32_t body, float impulse)
   world.add_impulse(world.id_of(body), {.impulse = {0, impulse, 0}, .angular_impulse = {}});
 }
 
+/* Returns the step in which the pushed box falls asleep, or 0. */
 uint32_t step_with_pushes(World &world, uint32_t from, uint32_t end)
 {
   for (uint32_t step = from; step < end; ++step) {

@@ -244,8 +244,7 @@ void add_joints(Page &page, const JointReport &joints)
   page.section("Trees of links");
   page.paragraph(fmt::format(
       "The same tree in reduced coordinates, in maximal coordinates with joints of a quarter of the substeps' rate, "
-      "and "
-      "as a dense system of equations in double, known to {:.1g} m: distances of all links, root mean square.",
+      "and as a dense system of equations in double, known to {:.1g} m: distances of all links, root mean square.",
       joints.uncertainty));
   std::map<std::string, Chart> charts;
   for (const JointCurve &curve : joints.curves) {
