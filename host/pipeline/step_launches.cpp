@@ -60,11 +60,13 @@ void StepLaunches::for_each_color(Kernel kernel, const Values &values)
   for (uint32_t color = 0; color < std::min(plan_.colors, COLOR_LIMIT); ++color) launch_color(kernel, color, values);
 }
 
-void StepLaunches::for_each_color_with_joints(Kernel joints, Kernel constraints, const Values &values)
+void StepLaunches::for_each_color_with_joints(Kernel joints, const Values &of_joints, Kernel constraints,
+                                              const Values &of_constraints)
 {
   for (uint32_t color = 0; color < std::min(std::max(plan_.colors, plan_.joint_colors), COLOR_LIMIT); ++color) {
-    if (color < plan_.joint_colors) run_range(joints, JOINT_COLOR_START + color, JOINT_COLOR_START + color + 1, values);
-    if (color < plan_.colors) launch_color(constraints, color, values);
+    if (color < plan_.joint_colors)
+      run_range(joints, JOINT_COLOR_START + color, JOINT_COLOR_START + color + 1, of_joints);
+    if (color < plan_.colors) launch_color(constraints, color, of_constraints);
   }
 }
 
@@ -93,11 +95,10 @@ void StepLaunches::for_each_link_color(uint32_t pass)
   if (pass != PASS_WARM_STARTING) run(Kernel::solve_articulations, {pass});
 }
 
-void StepLaunches::for_each_joint_color(Kernel joints, Kernel overflow)
+void StepLaunches::for_each_joint_color(Kernel joints, const Values &values)
 {
   for (uint32_t color = 0; color < std::min(plan_.joint_colors, COLOR_LIMIT); ++color)
-    run_range(joints, JOINT_COLOR_START + color, JOINT_COLOR_START + color + 1);
-  if (plan_.joint_colors > COLOR_LIMIT) run(overflow);
+    run_range(joints, JOINT_COLOR_START + color, JOINT_COLOR_START + color + 1, values);
 }
 
 void StepLaunches::run_overflow_joints(Kernel kernel, const Values &values)

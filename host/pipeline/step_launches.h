@@ -37,11 +37,12 @@ public:
   /* Launches a kernel once for each colour of constraints; constraints without a colour are left to
    * host/pipeline/solvers/mass_split.h. */
   void for_each_color(Kernel kernel, const Values &values = {});
-  /* Launches a kernel of joints and one of constraints once for each colour, joints first. Both take the same values. A
-   * scene without joints has those of constraints alone. */
-  void for_each_color_with_joints(Kernel joints, Kernel constraints, const Values &values = {});
-  /* Launches a kernel of joints alone once for each colour, and another one for those beyond, if there are some. */
-  void for_each_joint_color(Kernel joints, Kernel overflow);
+  /* Launches a kernel of joints and one of constraints once for each colour, joints first. A scene without joints has
+   * those of constraints alone. */
+  void for_each_color_with_joints(Kernel joints, const Values &of_joints, Kernel constraints,
+                                  const Values &of_constraints);
+  /* Launches a kernel of joints alone once for each colour. */
+  void for_each_joint_color(Kernel joints, const Values &values = {});
   /* Solves the joints that hold links and the contacts of links, colour by colour, then the rows of their trees. */
   void for_each_link_color(uint32_t pass);
   /* Launches a kernel over the overflow joints, if there are some: in a batch, an item starts at each of them. */

@@ -54,6 +54,13 @@ float length_of(const Vec3 &v)
   return round_to_float(std::sqrt(squared));
 }
 
+/* The solver xpbd closes in a substep what is open, as it does with contacts. */
+SoftContact joint_softness(const Settings &settings, double h)
+{
+  if (settings.solver == Solver::xpbd) return {round_to_float(1 / h), 1, 0};
+  return soft_contact(std::min<double>(settings.joint_hertz, 0.25 / h), settings.joint_damping_ratio, h);
+}
+
 } // namespace
 
 Parameters parameters_of(const Scene &scene, const Settings &settings, Features features, float median)
@@ -79,8 +86,7 @@ Parameters parameters_of(const Scene &scene, const Settings &settings, Features 
   p.static_bias_rate = against_fixed.rate;
   p.static_mass_scale = against_fixed.mass_scale;
   p.static_impulse_scale = against_fixed.impulse_scale;
-  const SoftContact joint =
-      soft_contact(std::min<double>(settings.joint_hertz, 0.25 / h), settings.joint_damping_ratio, h);
+  const SoftContact joint = joint_softness(settings, h);
   p.joint_bias_rate = joint.rate;
   p.joint_mass_scale = joint.mass_scale;
   p.joint_impulse_scale = joint.impulse_scale;

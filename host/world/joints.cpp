@@ -1,24 +1,39 @@
 /* joints.cpp - the joints of a world: their tables, and what a world with joints refuses. */
 #include <algorithm>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <tandem/error.h>
 
 #include "host/pipeline/layout.h"
+#include "host/pipeline/solvers/solvers.h"
 #include "host/scene/articulation_buffers.h"
 #include "host/scene/joint_buffers.h"
 #include "host/world/implementation.h"
 
 namespace tandem {
+namespace {
+
+std::string solvers_with_joints()
+{
+  std::vector<std::string_view> names;
+  for (const SolverRow &row : solvers())
+    if (row.joints) names.push_back(row.name);
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+} // namespace
 
 void check_joints(const Settings &settings, const Scene &scene)
 {
   if (scene.joints.empty()) return;
-  if (settings.solver != Solver::soft_step)
-    throw InputError(fmt::format("{}: the solver {} has no joints, of which the scene has {}; soft-step has them",
-                                 scene.name, name_of(settings.solver), scene.joints.size()));
+  if (!solves_joints(settings.solver))
+    throw InputError(fmt::format("{}: the solver {} has no joints, of which the scene has {}; {} have them", scene.name,
+                                 name_of(settings.solver), scene.joints.size(), solvers_with_joints()));
 }
 
 /* order: of the bodies in the buffers. */

@@ -160,6 +160,14 @@ SHARED void prepare_couplings_item(GLOBAL const Parameters *parameters, GLOBAL c
   store_real(impulse, i, choose(awake, (real)parameters->warm_start_scale, (real)R(1.0)) * load_real(cached, i));
 }
 
+/* For a solver that begins each substep without impulses. */
+SHARED void clear_couplings_item(GLOBAL const uint *coupling_a, GLOBAL const uint *coupling_b,
+                                 GLOBAL memory_real *impulse, item_index i)
+{
+  mask awake = are_awake(load_uint(coupling_a, i), load_uint(coupling_b, i));
+  store_real(impulse, i, choose(awake, (real)R(0.0), load_real(impulse, i)));
+}
+
 /* Applies the impulses of the last step in the first substep. */
 SHARED void warm_start_couplings_item(GLOBAL const Parameters *parameters, read_couplings couplings, read_joints joints,
                                       read_turning_bodies bodies, GLOBAL const memory_real *impulse,

@@ -44,6 +44,16 @@ SHARED void prepare_joints_item(GLOBAL const Parameters *parameters, GLOBAL cons
   atomic_clear_if(b != (uint_lanes)INDEX_NONE, body_falls, b);
 }
 
+/* For a solver that begins each substep without impulses. */
+SHARED void clear_joints_item(GLOBAL const Parameters *parameters, write_joint_impulses impulses, item_index i)
+{
+  vec4 none = make_vec4(R(0.0), R(0.0), R(0.0), R(0.0));
+  store_float4(impulses.linear, i, none);
+  if (HAS_FEATURE(parameters, JOINT_FRAMES)) store_float4(impulses.angular, i, none);
+  if (!HAS_FEATURE(parameters, JOINT_AXES)) return;
+  for (uint k = 0; k < parameters->joint_axes; ++k) store_float4(impulses.axis, joint_plane(parameters, k) + i, none);
+}
+
 SHARED void cache_joints_item(GLOBAL const Parameters *parameters, read_joint_impulses impulses,
                               write_cached_joint_impulses cached, item_index i)
 {

@@ -232,7 +232,7 @@ Outcome run_as_documented(const Case &which, Length length, const Placement &pla
 
 bool refuses(const std::string &solver, const Trial &trial)
 {
-  return !trial.scene.joints.empty() && solver != name_of(Solver::soft_step);
+  return !trial.scene.joints.empty() && !solves_joints(settings_of(trial, solver).solver);
 }
 
 namespace {

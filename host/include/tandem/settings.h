@@ -99,6 +99,9 @@ struct Settings {
 /* The defaults with the substeps and iterations that suit this solver. */
 TANDEM_API Settings settings_for(Solver solver);
 
+/* Whether it solves joints and couplings; other solvers refuse a scene that has some. */
+TANDEM_API bool solves_joints(Solver solver);
+
 /* Throws InputError if a number is out of range or a choice is none of its enum's values. */
 TANDEM_API void validate(const Settings &settings);
 

@@ -3,6 +3,7 @@
  * The iterative pass runs over all constraints. Large islands keep its result; for small ones it is the first guess,
  * which solve_islands (host/pipeline/solvers/islands.h) then improves to the solution in double on the CPU. */
 #include "host/pipeline/solvers/islands.h"
+#include "host/pipeline/solvers/joints.h"
 #include "host/pipeline/solvers/mass_split.h"
 #include "host/pipeline/solvers/solvers.h"
 #include "shared/solve/pass.h"
@@ -12,7 +13,7 @@ namespace {
 
 void launch_pass(StepLaunches &step, MassSplit &overflow, uint32_t pass)
 {
-  step.for_each_color(Kernel::solve_contacts, {pass});
+  solve_with_joints(step, Kernel::solve_contacts, pass, pass);
   overflow.solve(pass, overflow_iterations);
 }
 
@@ -28,6 +29,7 @@ void launch_direct_substep(StepLaunches &step, MassSplit &overflow, uint32_t sub
   launch_pass(step, overflow, PASS_LAST);
   step.run(Kernel::solve_islands, {PASS_LAST});
   solve_rolling(step);
+  follow_joints(step, substep);
 }
 
 } // namespace
@@ -36,10 +38,12 @@ void launch_direct(StepLaunches &step)
 {
   MassSplit overflow = MassSplit::overflow_of(step);
   overflow.prepare();
+  begin_joints(step);
   for (uint32_t substep = 0; substep < step.settings().substeps; ++substep)
     launch_direct_substep(step, overflow, substep);
   apply_restitution(step, overflow);
   if (step.has(FEATURE_RESTITUTION)) step.run(Kernel::solve_islands, {PASS_BOUNCING});
+  bounce_joints(step);
 }
 
 } // namespace tandem

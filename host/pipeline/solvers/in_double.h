@@ -1,4 +1,4 @@
-/* in_double.h - the shared headers of contacts in double, so that the stage solve_islands has the rows of the iterative
+/* in_double.h - the shared headers of contacts and joints in double, so that the stage solve_islands has the rows of the iterative
  * solver, but for rounding: arms of b, for example, are differences that only the latter rounds to floats. */
 #pragma once
 
@@ -9,6 +9,7 @@
 
 #define TANDEM_REFERENCE
 namespace tandem::in_double {
+#include "shared/joints/couplings.h"
 #include "shared/platform.h"
 #include "shared/solve/contact.h"
 } // namespace tandem::in_double

@@ -2,9 +2,9 @@
 #include "host/pipeline/solvers/island_rows.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstring>
-#include <utility>
 
 namespace tandem {
 namespace {
@@ -50,12 +50,6 @@ bool same_layout(const std::array<uint32_t, COUNT_TOTAL> &one, const std::array<
 
 } // namespace
 
-bool ChangedBuffers::take(const Memory &memory, Buffer buffer)
-{
-  const uint64_t version = memory.version(buffer);
-  return std::exchange(seen_[index_of(buffer)], version) != version;
-}
-
 /* Planes are CAPACITY_PAIRS apart on the device and `count` apart here. */
 void IslandRows::read_planes(Memory &memory, Buffer buffer, size_t planes, std::vector<float4> &rows)
 {
@@ -69,10 +63,10 @@ void IslandRows::read_changed(Memory &memory, Buffer buffer, size_t planes, std:
   if (changed_.take(memory, buffer)) read_planes(memory, buffer, planes, rows);
 }
 
-void IslandRows::read_bodies(Memory &memory, Buffer buffer, std::vector<float4> &rows)
+void IslandRows::read_bodies(Memory &memory, Buffer buffer, size_t planes, std::vector<float4> &rows)
 {
   if (!changed_.take(memory, buffer)) return;
-  rows.resize(2 * size_t{counts_[COUNT_BODIES]});
+  rows.resize(planes * counts_[COUNT_BODIES]);
   memory.read_reals(buffer, reinterpret_cast<double *>(rows.data()), 4 * rows.size());
 }
 
@@ -107,36 +101,46 @@ void IslandRows::make_room()
   grow_to(restitution, 2 * size_t{stride});
   grow_to(points, 4 * in_double::POINT_NUMBERS * size_t{stride});
   grow_to(slop, stride);
-  for (std::vector<float4> *rows : {&velocity, &inertia, &delta}) grow_to(*rows, 2 * size_t{counts_[COUNT_BODIES]});
+  for (std::vector<float4> *rows : {&velocity, &inertia, &delta, &orientation})
+    grow_to(*rows, 2 * size_t{counts_[COUNT_BODIES]});
 }
 
 bool IslandRows::read_graph(Memory &memory)
 {
   read_counts(memory);
-  if (count == 0) return false;
-  bool is_new = false;
+  if (changed_.take(memory, Buffer::parameters)) parameters = read_parameters(memory);
+  bool is_new = tables.read_graph(memory, changed_, parameters, counts_.data());
+  if (edges() == 0) return false;
   for (const Buffer buffer : {Buffer::constraint_a, Buffer::constraint_b, Buffer::constraint_points})
     is_new |= changed_.take(memory, buffer);
   if (!is_new) return false;
-  read_indices(memory, Buffer::constraint_a, count, a);
-  read_indices(memory, Buffer::constraint_b, count, b);
-  read_points(memory);
-  read_bodies(memory, Buffer::solver_velocity, velocity);
+  if (count > 0) {
+    read_indices(memory, Buffer::constraint_a, count, a);
+    read_indices(memory, Buffer::constraint_b, count, b);
+    read_points(memory);
+  }
+  read_bodies(memory, Buffer::solver_velocity, 2, velocity);
   return true;
 }
 
 void IslandRows::read_rest(Memory &memory)
 {
-  if (changed_.take(memory, Buffer::parameters)) parameters = read_parameters(memory);
+  if (count > 0) read_contacts(memory);
+  read_bodies(memory, Buffer::solver_velocity, 2, velocity);
+  if (has_tensors()) read_bodies(memory, Buffer::solver_inertia, 2, inertia);
+  read_bodies(memory, Buffer::solver_delta_pose, 2, delta);
+  if (has_joints()) read_bodies(memory, Buffer::solver_orientation, 1, orientation);
+  tables.read_rest(memory, changed_);
+}
+
+void IslandRows::read_contacts(Memory &memory)
+{
   read_changed(memory, Buffer::constraint_normal, 1, normal);
   read_changed(memory, Buffer::constraint_center, 1, center);
   read_changed(memory, Buffer::constraint_offset, 1, offset);
   read_changed(memory, Buffer::constraint_normal_impulse, 1, normal_impulse);
   if (rubs()) read_changed(memory, Buffer::constraint_friction_impulse, 1, friction_impulse);
   else friction_impulse.assign(count, float4{}); /* there are no rows: shared/friction_rows.h */
-  read_bodies(memory, Buffer::solver_velocity, velocity);
-  if (has_tensors()) read_bodies(memory, Buffer::solver_inertia, inertia);
-  read_bodies(memory, Buffer::solver_delta_pose, delta);
   if (changed_.take(memory, Buffer::constraint_slop)) {
     slop.resize(count);
     memory.read_reals(Buffer::constraint_slop, slop.data(), count);
@@ -147,12 +151,19 @@ void IslandRows::read_rest(Memory &memory)
 /* What is written is rounded to the numbers of the device, so that it has to be read again. */
 void IslandRows::write(Memory &memory)
 {
+  if (count > 0) write_contacts(memory);
+  write_rows(memory, Buffer::solver_velocity, velocity.data(), velocity.size());
+  changed_.forget(Buffer::solver_velocity);
+  tables.write(memory, changed_);
+}
+
+void IslandRows::write_contacts(Memory &memory)
+{
   write_rows(memory, Buffer::constraint_normal_impulse, normal_impulse.data(), count);
   if (rubs()) write_rows(memory, Buffer::constraint_friction_impulse, friction_impulse.data(), count);
-  write_rows(memory, Buffer::solver_velocity, velocity.data(), velocity.size());
   if (bounces()) write_rows(memory, Buffer::constraint_restitution, restitution.data() + count, count, stride);
-  for (const Buffer buffer : {Buffer::constraint_normal_impulse, Buffer::constraint_friction_impulse,
-                              Buffer::solver_velocity, Buffer::constraint_restitution})
+  for (const Buffer buffer :
+       {Buffer::constraint_normal_impulse, Buffer::constraint_friction_impulse, Buffer::constraint_restitution})
     changed_.forget(buffer);
 }
 
@@ -175,6 +186,30 @@ IslandRows::vec3 IslandRows::turned_by(uint32_t body, const vec3 &angular_impuls
 {
   const in_double::spatial_velocity m = in_double::load_velocity(velocity.data(), body);
   return symmetric_times(load_inertia(&parameters, inertia.data(), body, m), angular_impulse);
+}
+
+IslandRows::Ends IslandRows::ends(uint32_t edge) const
+{
+  if (is_contact(edge)) return {a[edge], b[edge], INDEX_NONE, INDEX_NONE};
+  if (is_joint(edge)) return {tables.a[joint_of(edge)], tables.b[joint_of(edge)], INDEX_NONE, INDEX_NONE};
+  const uint32_t one = tables.coupling_a[coupling_of(edge)], other = tables.coupling_b[coupling_of(edge)];
+  if (one == INDEX_NONE || other == INDEX_NONE) return {INDEX_NONE, INDEX_NONE, INDEX_NONE, INDEX_NONE};
+  return {tables.a[one], tables.b[one], tables.a[other], tables.b[other]};
+}
+
+uint32_t IslandRows::size_of(uint32_t edge) const
+{
+  if (is_contact(edge)) return points_of(edge);
+  return is_joint(edge) ? (rows_of_joint(joint_of(edge)) + 3) / 4 : 1;
+}
+
+/* An axis has a drive, friction, and two ends of its limits and its speed. */
+uint32_t IslandRows::rows_of_joint(uint32_t joint) const
+{
+  auto rows = static_cast<uint32_t>(std::popcount(tables.modes[joint]));
+  for (size_t k = joint; k < tables.axis_kind.size(); k += parameters.joints)
+    if (tables.axis_kind[k] != in_double::JOINT_AXIS_NONE) rows += 6;
+  return rows;
 }
 
 uint32_t IslandRows::points_of(uint32_t constraint) const

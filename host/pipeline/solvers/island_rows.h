@@ -1,40 +1,23 @@
-/* island_rows.h - what the stage solve_islands reads and writes, in double on the host.
- *
- * Each read waits for the device, and a launch has some twenty buffers to read, eight times a step. What nothing has
- * written since the last launch is therefore not read again: that is most of it, within a step.
- */
+/* island_rows.h - what the stage solve_islands reads and writes, in double on the host. Of joints and couplings:
+ * island_tables.h. */
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <vector>
 
-#include "host/pipeline/solvers/in_double.h"
-#include "host/runtime/memory.h"
+#include "host/pipeline/solvers/island_tables.h"
 
 namespace tandem {
 
-/* Which buffers may have been written since they were last looked at. */
-class ChangedBuffers {
-public:
-  ChangedBuffers() { forget_all(); }
-  /* Returns whether this one may, and takes note. */
-  bool take(const Memory &memory, Buffer buffer);
-  void forget(Buffer buffer) { seen_[index_of(buffer)] = never; }
-  void forget_all() { seen_.fill(never); }
-
-private:
-  static constexpr uint64_t never = UINT64_MAX;
-  std::array<uint64_t, buffer_count> seen_;
-};
-
+/* Edges of the graph of bodies: the contacts, then the joints, then the couplings. */
 class IslandRows {
 public:
   using float4 = in_double::float4;
   using vec3 = in_double::vec3;
 
-  /* Reads what tells the islands: a, b, points, and which bodies move. Returns whether any of it may be new; within a
-   * step it is so once. */
+  /* Reads what tells the islands: the bodies of edges, points, and which bodies move. Returns whether any of it may be
+   * new; within a step it is so once. */
   bool read_graph(Memory &memory);
   void read_rest(Memory &memory);
   /* For a launch that has failed: what it was about to read is read by the next one. */
@@ -46,8 +29,22 @@ public:
 
   bool bounces() const { return HAS_FEATURE(&parameters, RESTITUTION); }
   bool rubs() const { return HAS_FEATURE(&parameters, FRICTION); }
+  uint32_t edges() const { return count + tables.joint_count + tables.coupling_count; }
+  bool has_joints() const { return HAS_FEATURE(&parameters, JOINTS); }
+  /* For which buffers have room. */
+  size_t most_edges() const { return size_t{stride} + tables.joint_count + tables.coupling_count; }
+  bool is_contact(uint32_t edge) const { return edge < count; }
+  bool is_joint(uint32_t edge) const { return edge >= count && edge - count < tables.joint_count; }
+  uint32_t joint_of(uint32_t edge) const { return edge - count; }
+  uint32_t coupling_of(uint32_t edge) const { return edge - count - tables.joint_count; }
+  /* The bodies of an edge, INDEX_NONE for each that is the world or not there. */
+  using Ends = std::array<uint32_t, 4>;
+  Ends ends(uint32_t edge) const;
+  /* As many contact points as have no fewer rows. */
+  uint32_t size_of(uint32_t edge) const;
   uint32_t bodies() const { return static_cast<uint32_t>(velocity.size() / 2); }
-  bool moves(uint32_t body) const { return velocity[2 * body].w > 0; }
+  bool moves(uint32_t body) const { return body != INDEX_NONE && velocity[2 * body].w > 0; }
+  in_double::read_turning_bodies turning_bodies() const { return {inertia.data(), delta.data(), orientation.data()}; }
   bool has_tensors() const { return HAS_FEATURE(&parameters, GYROSCOPIC); }
   double locks(uint32_t body) const { return has_tensors() ? inertia[2 * body + 1].z : 0; }
   vec3 free_part(uint32_t body, const vec3 &v) const;
@@ -57,22 +54,27 @@ public:
   {
     return points[size_t{count} * (k * in_double::POINT_NUMBERS + number) + constraint];
   }
-  uint32_t points_of(uint32_t constraint) const;
   uint32_t stalled() const { return counts_[COUNT_DIRECT_STALLED]; }
 
   uint32_t count = 0, stride = 0;
   in_double::Parameters parameters{};
   std::vector<uint32_t> a, b;
-  std::vector<float4> normal, center, offset, normal_impulse, friction_impulse, velocity, inertia, delta, restitution;
+  std::vector<float4> normal, center, offset, normal_impulse, friction_impulse, velocity, inertia, delta, orientation,
+      restitution;
   std::vector<double> points, slop; /* slop, or the flag for a deep contact: slop_or_deep */
+  JointTables tables;
 
 private:
   void read_counts(Memory &memory);
+  void read_contacts(Memory &memory);
+  void write_contacts(Memory &memory);
   void make_room();
   void read_points(Memory &memory);
   void read_planes(Memory &memory, Buffer buffer, size_t planes, std::vector<float4> &rows);
   void read_changed(Memory &memory, Buffer buffer, size_t planes, std::vector<float4> &rows);
-  void read_bodies(Memory &memory, Buffer buffer, std::vector<float4> &rows);
+  void read_bodies(Memory &memory, Buffer buffer, size_t planes, std::vector<float4> &rows);
+  uint32_t points_of(uint32_t constraint) const;
+  uint32_t rows_of_joint(uint32_t joint) const;
 
   std::array<uint32_t, COUNT_TOTAL> counts_{};
   ChangedBuffers changed_;

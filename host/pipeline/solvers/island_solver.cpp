@@ -185,6 +185,7 @@ private:
       if (m.slides) project_tangent(limit, x[tangent(m)], x[tangent(m) + 1]);
       if (m.twists) x[twist(m)] = std::clamp(x[twist(m)], -limit * m.twist_radius, limit * m.twist_radius);
     }
+    for (const BoundedRow &b : problem_.bounded) x[b.row] = std::clamp(x[b.row], b.lower, b.upper);
   }
 
   /* map = x - projection(x - step * speed), which is zero at a solution. */
@@ -198,6 +199,7 @@ private:
       if (m.slides) project_tangent(limit, map_[tangent(m)], map_[tangent(m) + 1]);
       if (m.twists) map_[twist(m)] = std::clamp(map_[twist(m)], -limit * m.twist_radius, limit * m.twist_radius);
     }
+    for (const BoundedRow &b : problem_.bounded) map_[b.row] = std::clamp(map_[b.row], b.lower, b.upper);
     map_ = x - map_;
   }
 
@@ -257,6 +259,14 @@ private:
       if (m.slides) linearise_tangent(m, limit, x);
       if (m.twists) linearise_twist(m, limit * m.twist_radius, x);
     }
+    for (const BoundedRow &b : problem_.bounded) linearise_bounded(b, x);
+  }
+
+  void linearise_bounded(const BoundedRow &b, const Vector &x)
+  {
+    const double wanted = x[b.row] - step_[b.row] * speed_[b.row];
+    if (wanted > b.lower && wanted < b.upper) derivative_.row(b.row) = step_[b.row] * matrix_.row(b.row);
+    else derivative_(b.row, b.row) = 1;
   }
 
   /* On the cone the map is x - radius(x) * direction(x - step * speed). */
@@ -397,6 +407,8 @@ private:
         if (keep_if_better(x)) return;
         evaluate_speeds(x); /* computed afresh, because updates would accumulate their rounding errors */
       }
+      for (const BoundedRow &b : problem_.bounded)
+        move(x, b.row, std::clamp(x[b.row] - step_[b.row] * speed_[b.row], b.lower, b.upper));
       for (const ManifoldRows &m : problem_.manifolds) solve_manifold(m, x);
       ++result_.iterations;
     }

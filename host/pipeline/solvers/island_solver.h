@@ -1,4 +1,4 @@
-/* island_solver.h - one dense contact problem with friction, solved to convergence in double; islands.h makes the
+/* island_solver.h - one dense problem of contacts with friction and of joints, solved to convergence in double; islands.h makes the
  * problems.
  *
  *   w = W x + offset          W: Delassus operator, x: impulses, w: speeds of the rows
@@ -6,6 +6,7 @@
  *   normal   x >= 0, w >= 0, x w = 0
  *   tangent  |x_t| <= friction * (sum of the manifold's normals), opposed to w_t where it slips
  *   twist    |x| <= friction * twist_radius * (the same sum), opposed to w where it slips
+ *   bounded  lower <= x <= upper; w = 0 in between, w >= 0 at the lower bound, w <= 0 at the upper one
  *
  * The method is semismooth Newton on the natural map (Alart and Curnier, 1991; survey: Acary, Bremond and Huber, "On
  * solving contact problems with Coulomb friction", 2018). Where it stalls, passes of nonsmooth Gauss-Seidel (Jean,
@@ -29,11 +30,18 @@ struct ManifoldRows {
   double twist_radius = 0; /* m */
 };
 
+/* A row of a joint. */
+struct BoundedRow {
+  uint32_t row = 0;
+  double lower = 0, upper = 0; /* infinite if it has none */
+};
+
 struct IslandProblem {
   uint32_t rows = 0;
   std::vector<double> matrix; /* W, rows x rows, symmetric, diagonal > 0 */
   std::vector<double> offset; /* m/s, rad/s for twists */
   std::vector<ManifoldRows> manifolds;
+  std::vector<BoundedRow> bounded;
   std::vector<double> impulse; /* N s: a guess on input, the solution on output */
 };
 

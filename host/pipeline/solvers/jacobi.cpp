@@ -2,28 +2,48 @@
  *
  * It has the substeps of the soft step, with iterations in place of colours: two launches an iteration, however many
  * colours the scene would need. */
+#include "host/pipeline/solvers/joints.h"
 #include "host/pipeline/solvers/mass_split.h"
 #include "host/pipeline/solvers/solvers.h"
 #include "shared/solve/pass.h"
 
 namespace tandem {
+namespace {
+
+/* Joints are solved colour by colour, before the contacts of each iteration. */
+void launch_iterations(StepLaunches &step, MassSplit &contacts, uint32_t pass)
+{
+  const uint32_t iterations = step.settings().iterations;
+  for (uint32_t iteration = 0; iteration < iterations; ++iteration) {
+    solve_joints(step, pass);
+    contacts.iterate(pass, iteration, iterations);
+  }
+  solve_rolling(step);
+}
+
+void launch_jacobi_substep(StepLaunches &step, MassSplit &contacts, uint32_t substep)
+{
+  step.begin_substep(substep);
+  warm_start_joints(step);
+  contacts.warm_start();
+  warm_start_rolling(step);
+  launch_iterations(step, contacts, PASS_BIASED);
+  step.move_bodies();
+  launch_iterations(step, contacts, PASS_LAST);
+  follow_joints(step, substep);
+}
+
+} // namespace
 
 void launch_jacobi(StepLaunches &step)
 {
-  const uint32_t iterations = step.settings().iterations;
   MassSplit contacts = MassSplit::all_of(step);
   contacts.prepare();
-  for (uint32_t substep = 0; substep < step.settings().substeps; ++substep) {
-    step.begin_substep(substep);
-    contacts.warm_start();
-    warm_start_rolling(step);
-    contacts.solve(PASS_BIASED, iterations);
-    solve_rolling(step);
-    step.move_bodies();
-    contacts.solve(PASS_LAST, iterations);
-    solve_rolling(step);
-  }
+  begin_joints(step);
+  for (uint32_t substep = 0; substep < step.settings().substeps; ++substep)
+    launch_jacobi_substep(step, contacts, substep);
   if (step.has(FEATURE_RESTITUTION)) contacts.apply_restitution();
+  bounce_joints(step);
 }
 
 } // namespace tandem

@@ -2,6 +2,7 @@
 #include "host/pipeline/solvers/mass_split.h"
 
 #include "host/pipeline/body_constraints.h"
+#include "host/pipeline/solvers/joints.h"
 #include "host/pipeline/solvers/solvers.h"
 #include "shared/solve/pass.h"
 
@@ -30,11 +31,14 @@ void MassSplit::warm_start()
 
 void MassSplit::solve(uint32_t pass, uint32_t iterations)
 {
+  for (uint32_t iteration = 0; iteration < iterations; ++iteration) iterate(pass, iteration, iterations);
+}
+
+void MassSplit::iterate(uint32_t pass, uint32_t iteration, uint32_t iterations)
+{
   if (!launched_) return;
-  for (uint32_t iteration = 0; iteration < iterations; ++iteration) {
-    run_rows(Kernel::split_solve, {pass, iteration + 1 < iterations ? iteration : 0});
-    join_parts();
-  }
+  run_rows(Kernel::split_solve, {pass, iteration + 1 < iterations ? iteration : 0});
+  join_parts();
 }
 
 void MassSplit::apply_restitution()
@@ -63,7 +67,7 @@ void MassSplit::join_parts()
 
 void warm_start_contacts(StepLaunches &step, MassSplit &overflow)
 {
-  step.for_each_color(Kernel::warm_start);
+  warm_start_with_joints(step);
   overflow.warm_start();
   warm_start_rolling(step);
 }

@@ -32,6 +32,8 @@ public:
   void warm_start();
   /* pass: of shared/solve/pass.h. */
   void solve(uint32_t pass, uint32_t iterations);
+  /* One of so many iterations, for a solver that does something between them. */
+  void iterate(uint32_t pass, uint32_t iteration, uint32_t iterations);
   /* Runs in rounds, because a part with restitution is slowed by the other parts of its body. */
   void apply_restitution();
 

@@ -1,5 +1,6 @@
 /* nncg.cpp - the solver `nncg`: conjugate gradients over the passes of pgs; see shared/solve/nncg.h. */
 #include "host/pipeline/primitives.h"
+#include "host/pipeline/solvers/joints.h"
 #include "host/pipeline/solvers/mass_split.h"
 #include "host/pipeline/solvers/solvers.h"
 #include "shared/solve/pass.h"
@@ -39,6 +40,7 @@ void launch_nncg_substep(StepLaunches &step, MassSplit &overflow, uint32_t subst
   step.move_bodies();
   step.run(Kernel::pgs_masses);
   launch_passes(step, overflow, PASS_LAST);
+  follow_joints(step, substep);
 }
 
 } // namespace
@@ -47,9 +49,11 @@ void launch_nncg(StepLaunches &step)
 {
   MassSplit overflow = MassSplit::overflow_of(step);
   overflow.prepare();
+  begin_joints(step);
   for (uint32_t substep = 0; substep < step.settings().substeps; ++substep)
     launch_nncg_substep(step, overflow, substep);
   apply_restitution(step, overflow);
+  bounce_joints(step);
 }
 
 } // namespace tandem

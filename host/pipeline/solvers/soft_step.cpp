@@ -1,5 +1,6 @@
 /* soft_step.cpp - the default solver: small substeps, in each of which soft constraints are solved, bodies moved and
  * the constraints relaxed; see shared/solve/contact.h. */
+#include "host/pipeline/solvers/joints.h"
 #include "host/pipeline/solvers/mass_split.h"
 #include "host/pipeline/solvers/solvers.h"
 #include "shared/solve/pass.h"
@@ -7,21 +8,10 @@
 namespace tandem {
 namespace {
 
-void solve_couplings(StepLaunches &step, uint32_t pass, bool further)
-{
-  step.for_each_coupling_color(further ? Kernel::solve_couplings_further : Kernel::solve_couplings, {pass});
-  if (step.has(FEATURE_WORLDS)) step.run_overflow_couplings(Kernel::solve_overflow_couplings_by_world, {pass, further});
-  else step.run_overflow_couplings(Kernel::solve_overflow_couplings, {pass});
-}
-
 /* further: of a batch, only worlds with overflow constraints take part. */
 void solve(StepLaunches &step, MassSplit &overflow, uint32_t pass, bool further = false)
 {
-  step.for_each_color_with_joints(further ? Kernel::solve_joints_further : Kernel::solve_joints, Kernel::solve_contacts,
-                                  {pass});
-  if (step.has(FEATURE_WORLDS)) step.run_overflow_joints(Kernel::solve_overflow_joints_by_world, {pass, further});
-  else step.run_overflow_joints(Kernel::solve_overflow_joints, {pass});
-  if (step.has(FEATURE_COUPLINGS)) solve_couplings(step, pass, further);
+  solve_with_joints(step, Kernel::solve_contacts, pass, pass, further);
   step.for_each_link_color(pass);
   overflow.solve(pass, overflow_iterations);
   solve_rolling(step);
@@ -44,16 +34,6 @@ void solve_in_turns(StepLaunches &step, MassSplit &overflow, uint32_t passes)
   step.limit_to_worlds_with_overflow(false);
 }
 
-void warm_start_with_joints(StepLaunches &step)
-{
-  step.for_each_color_with_joints(Kernel::warm_start_joints, Kernel::warm_start);
-  step.run_overflow_joints(step.has(FEATURE_WORLDS) ? Kernel::warm_start_overflow_joints_by_world
-                                                    : Kernel::warm_start_overflow_joints);
-  if (!step.has(FEATURE_COUPLINGS)) return;
-  step.for_each_coupling_color(Kernel::warm_start_couplings);
-  step.run_overflow_couplings(Kernel::warm_start_overflow_couplings);
-}
-
 /* Later substeps read the impulses of the colours from warm_start_impulse; the overflow constraints apply their own in
  * each substep. */
 void launch_soft_step_substep(StepLaunches &step, MassSplit &overflow, uint32_t substep)
@@ -67,8 +47,7 @@ void launch_soft_step_substep(StepLaunches &step, MassSplit &overflow, uint32_t 
   step.move_bodies();
   const bool last = substep + 1 == step.settings().substeps;
   solve(step, overflow, last ? PASS_LAST : PASS_RELAXING);
-  if (step.has(FEATURE_JOINT_BOUNCES)) step.run(Kernel::follow_limits, {0});
-  if (step.has(FEATURE_JOINT_BREAKS)) step.run(Kernel::measure_joint_loads, {substep, last});
+  follow_joints(step, substep);
 }
 
 void list_tree_contacts(StepLaunches &step)
@@ -85,13 +64,12 @@ void launch_soft_step(StepLaunches &step)
   MassSplit overflow = MassSplit::overflow_of(step);
   overflow.prepare();
   list_tree_contacts(step);
-  if (step.has(FEATURE_JOINT_BOUNCES)) step.run(Kernel::follow_limits, {1});
+  begin_joints(step);
   for (uint32_t substep = 0; substep < step.settings().substeps; ++substep)
     launch_soft_step_substep(step, overflow, substep);
   apply_restitution(step, overflow);
   if (step.has(FEATURE_RESTITUTION)) step.for_each_link_color(PASS_BOUNCING);
-  if (step.has(FEATURE_JOINT_BOUNCES))
-    step.for_each_joint_color(Kernel::bounce_at_limits, Kernel::bounce_at_overflow_limits);
+  bounce_joints(step);
 }
 
 } // namespace tandem

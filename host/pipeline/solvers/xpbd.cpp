@@ -1,6 +1,8 @@
 /* xpbd.cpp - the solver `xpbd`: positions first, then velocities, in small substeps; see shared/solve/xpbd.h. */
+#include "host/pipeline/solvers/joints.h"
 #include "host/pipeline/solvers/mass_split.h"
 #include "host/pipeline/solvers/solvers.h"
+#include "shared/solve/pass.h"
 
 namespace tandem {
 namespace {
@@ -15,12 +17,27 @@ void launch_xpbd_substep(StepLaunches &step, uint32_t substep)
 {
   step.begin_substep(substep);
   warm_start_rolling(step);
-  for (uint32_t iteration = 0; iteration < step.settings().iterations; ++iteration)
-    step.for_each_color(Kernel::xpbd_positions, Kernel::xpbd_positions_overflow, {iteration == 0});
+  clear_joint_impulses(step);
+  for (uint32_t iteration = 0; iteration < step.settings().iterations; ++iteration) {
+    solve_with_joints(step, Kernel::xpbd_positions, PASS_BIASED, iteration == 0);
+    if (step.plan().colors > COLOR_LIMIT) step.run(Kernel::xpbd_positions_overflow, {iteration == 0});
+  }
   step.move_bodies();
+  for (uint32_t iteration = 0; iteration < step.settings().iterations; ++iteration) solve_joints(step, PASS_LAST);
   for (uint32_t pass = 0; pass < velocity_passes(step); ++pass)
     step.for_each_color(Kernel::xpbd_velocities, Kernel::xpbd_velocities_overflow);
   solve_rolling(step);
+  follow_joints(step, substep);
+}
+
+void bounce(StepLaunches &step)
+{
+  if (step.has(FEATURE_RESTITUTION)) {
+    MassSplit overflow = MassSplit::overflow_of(step);
+    overflow.prepare();
+    apply_restitution(step, overflow);
+  }
+  bounce_joints(step);
 }
 
 } // namespace
@@ -28,11 +45,9 @@ void launch_xpbd_substep(StepLaunches &step, uint32_t substep)
 void launch_xpbd(StepLaunches &step)
 {
   if (step.has(FEATURE_FRICTION)) step.run(Kernel::xpbd_prepare);
+  begin_joints(step);
   for (uint32_t substep = 0; substep < step.settings().substeps; ++substep) launch_xpbd_substep(step, substep);
-  if (!step.has(FEATURE_RESTITUTION)) return;
-  MassSplit overflow = MassSplit::overflow_of(step);
-  overflow.prepare();
-  apply_restitution(step, overflow);
+  bounce(step);
 }
 
 void commit_xpbd(StepLaunches &step)

@@ -1,0 +1,34 @@
+/* joints.h - launches of joints and couplings that solvers share; see shared/joints/solve.h.
+ *
+ * Their rows are those of shared/joints/, whatever the solver: a pass with bias closes what is open, and one without
+ * takes the velocity of closing out again. Solvers differ in when they make these passes, and in what they do with the
+ * impulses of the last step:
+ *
+ *   soft-step, pgs, nncg   a pass over joints in each pass over contacts, the joints of a colour before its contacts
+ *   jacobi                 the same, but contacts come after all joints
+ *   xpbd                   passes with bias alone, from no impulses in each substep; joints are as rigid as contacts
+ */
+#pragma once
+
+#include "host/pipeline/step_launches.h"
+
+namespace tandem {
+
+/* Before the first substep. */
+void begin_joints(StepLaunches &step);
+/* The impulses of the last step: of joints and couplings alone, or with those of contacts, colour by colour. */
+void warm_start_joints(StepLaunches &step);
+void warm_start_with_joints(StepLaunches &step);
+/* Zeroes the impulses, for a solver that begins each substep without. */
+void clear_joint_impulses(StepLaunches &step);
+/* A pass over joints, couplings, and the constraints that have a colour. pass: of shared/solve/pass.h; value: of the
+ * kernel of constraints; further: of a batch of worlds, only those with overflow constraints take part. */
+void solve_with_joints(StepLaunches &step, Kernel constraints, uint32_t pass, uint32_t value, bool further = false);
+/* The same without constraints. */
+void solve_joints(StepLaunches &step, uint32_t pass);
+/* After the last pass of a substep. */
+void follow_joints(StepLaunches &step, uint32_t substep);
+/* After the last substep: what arrived at limits leaves them again. */
+void bounce_joints(StepLaunches &step);
+
+} // namespace tandem

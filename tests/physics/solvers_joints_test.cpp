@@ -1,0 +1,312 @@
+/* Joints in every solver that solves them: closed forms of what they hold, limit, drive and brake, with the settings
+ * that the solver has by default. Those of soft-step have tests of their own (joints_test.cpp, joint_axes_test.cpp). */
+#include <tandem/metrics.h>
+
+#include "tests/catch.h"
+#include "tests/physics/joints.h"
+
+using namespace tandem;
+using namespace tandem::physics_tests;
+
+namespace {
+
+const Placement in_order{"serial", {}, false};
+
+/* Each solver that has joints, with its defaults. */
+Settings each_solver()
+{
+  const Solver solver = GENERATE(filter([](Solver one) { return solves_joints(one); },
+                                        values({Solver::soft_step, Solver::pgs, Solver::nncg, Solver::xpbd,
+                                                Solver::avbd, Solver::jacobi, Solver::direct})));
+  UNSCOPED_INFO("solver " << name_of(solver));
+  return settings_for(solver);
+}
+
+/* The share of a gap that a substep closes, and the gap under a load of 1 m/s^2 that does not change, m: joints of xpbd
+ * close all of it, and those of direct give way by a ten-thousandth (host/pipeline/solvers/island_joints.cpp). */
+double share_closed(const Settings &settings)
+{
+  return settings.solver == Solver::xpbd ? 1 : Softness(settings).rate * substep_of(settings);
+}
+double gap_under_load(const Settings &settings)
+{
+  const double h = substep_of(settings);
+  if (settings.solver == Solver::xpbd) return 0; /* closed before bodies move */
+  if (settings.solver == Solver::direct) return 1e-4 * h * h / share_closed(settings);
+  return Softness(settings).stretch;
+}
+
+/* A cube of 1 kg at the origin that a joint to the world holds; its moment of inertia is 1/6 kg m^2. */
+struct HeldCube {
+  static constexpr double moment = 1.0 / 6;
+  Scene scene;
+  explicit HeldCube(JointType type, const Vec3 &gravity = {0, 0, 0}) : scene(empty_scene(gravity))
+  {
+    add_body(scene, BodyType::dynamic, box_shape(0.5f, 0.5f, 0.5f), {0, 0, 0});
+    connect(scene, type, no_body, 0, Vector::Zero());
+  }
+  JointAxis &direction() { return scene.joints[0].directions[0]; }
+  JointAxis &rotation() { return scene.joints[0].rotations[0]; }
+};
+
+double way_of(World &world) { return world.precise_bodies()[0].position[0]; }
+double speed_along_x(World &world) { return world.precise_bodies()[0].linear_velocity[0]; }
+double spin_about_x(World &world) { return world.precise_bodies()[0].angular_velocity[0]; }
+
+/* Boxes of 2 kg that hang one below the other. */
+Scene hanging_chain(int boxes)
+{
+  Scene scene = empty_scene();
+  for (int k = 0; k < boxes; ++k) {
+    add_body(scene, BodyType::dynamic, box_shape(0.2f, 0.2f, 0.2f), {0, -double(k), 0}).mass = 2;
+    connect(scene, JointType::ball, k == 0 ? no_body : uint32_t(k - 1), uint32_t(k), {0, 0.5 - k, 0});
+  }
+  return scene;
+}
+
+} // namespace
+
+TEST_CASE("solvers with joints: a pendulum has the period of theory, and its joint opens no more than it may",
+          "[physics]")
+{
+  const Settings settings = each_solver();
+  const double angle = 0.6, h = substep_of(settings), length = 1, radius = 0.2;
+  Scene scene = empty_scene();
+  Body &ball = add_body(scene, BodyType::dynamic, sphere_shape(float(radius)),
+                        {length * std::sin(angle), -length * std::cos(angle), 0});
+  ball.orientation = turn_about(Vector::UnitZ(), angle);
+  connect(scene, JointType::hinge, no_body, 0, Vector::Zero(), Vector::UnitZ());
+  World world(scene, settings, in_order);
+  ZeroCrossings crossings;
+  double open = 0;
+  for (int k = 1; k <= 360; ++k) {
+    world.step();
+    const Point p = world.precise_bodies()[0].position;
+    crossings.note(k * double(settings.step), std::atan2(p[0], -p[1]));
+    open = std::max(open, open_joints(world).max_distance);
+  }
+  const double rate = std::sqrt(gravity * length / (length * length + 0.4 * radius * radius));
+  const double fall = gravity * (1 - std::cos(angle)), tension = gravity + 2 * fall;
+  /* A substep leaves the circle by (v h)^2 / 2, of which the joint closes a share; and the load opens it. */
+  const double may_open = fall * h * h / share_closed(settings) + gap_under_load(settings) * tension + 1e-6;
+  const double period = 2 * pi / rate * lengthening_of_period(angle);
+  CHECK(open < may_open);
+  /* Euler's method swings the energy by w h / 2, and the period changes by angle^2 / 16 of that; it is of second order
+   * beside it. What is open lengthens the arm. */
+  const double own = 0.5 * rate * h * angle * angle / 16 + std::pow(rate * h, 2) / 24;
+  CHECK(std::abs(crossings.interval(0, 1) / period - 1) < own + 0.5 * may_open);
+}
+
+TEST_CASE("solvers with joints: a spring with a damper answers a step as theory says", "[physics]")
+{
+  const Settings settings = each_solver();
+  const double stiffness = 40, damping = 4, decay = damping / 2, rate = std::sqrt(stiffness - decay * decay);
+  HeldCube held(JointType::slider);
+  held.direction() = {.target_position = 1, .stiffness = float(stiffness), .damping = float(damping)};
+  World world(held.scene, settings, in_order);
+  double worst = 0;
+  for (int k = 1; k <= 180; ++k) {
+    world.step();
+    const double t = k / 60.0;
+    const double exact = 1 - std::exp(-decay * t) * (std::cos(rate * t) + decay / rate * std::sin(rate * t));
+    worst = std::max(worst, std::abs(way_of(world) - exact));
+  }
+  CHECK(worst < 0.5 * stiffness * substep_of(settings) / decay); /* implicit Euler of first order */
+}
+
+TEST_CASE("solvers with joints: no spring is too stiff", "[physics]")
+{
+  const Settings settings = each_solver();
+  const float stiffness = GENERATE(1e3f, 1e9f);
+  HeldCube held(JointType::slider, {10, 0, 0});
+  held.direction() = {.target_position = 0.5f, .stiffness = stiffness, .damping = 0.05f * stiffness};
+  World world(held.scene, settings, in_order);
+  run(world, 300);
+  CHECK(std::abs(way_of(world) - 0.5 - 10 / double(stiffness)) < 1e-4);
+  CHECK(std::abs(speed_along_x(world)) < 1e-4);
+}
+
+TEST_CASE("solvers with joints: a motor speeds up with its largest torque and then holds its speed", "[physics]")
+{
+  const double torque = 0.5, target = 6, growth = torque / HeldCube::moment;
+  HeldCube held(JointType::hinge);
+  held.rotation() = {.target_velocity = float(target), .motor = true, .max_force = float(torque)};
+  World world(held.scene, each_solver(), in_order);
+  double worst = 0;
+  for (int k = 1; k <= 180; ++k) {
+    world.step();
+    worst = std::max(worst, std::abs(spin_about_x(world) - std::min(target, growth * k / 60)));
+  }
+  CHECK(worst < 1e-4 * target);
+}
+
+TEST_CASE("solvers with joints: friction brakes with its force and then holds", "[physics]")
+{
+  const Settings settings = each_solver();
+  const double friction = 2, start = 3;
+  HeldCube held(JointType::slider);
+  held.scene.bodies[0].linear_velocity = {float(start), 0, 0};
+  held.direction() = {.friction = float(friction)};
+  World world(held.scene, settings, in_order);
+  run(world, 120);
+  CHECK(std::abs(way_of(world) - start * start / (2 * friction)) < 0.51 * start * substep_of(settings));
+  CHECK(std::abs(speed_along_x(world)) < 1e-6);
+}
+
+TEST_CASE("solvers with joints: limits stop a body from both sides, at any speed, and give back their restitution",
+          "[physics]")
+{
+  const Settings settings = each_solver();
+  const double speed = GENERATE(0.5, 20.0), sign = GENERATE(-1.0, 1.0), restitution = GENERATE(0.0, 0.5);
+  HeldCube held(JointType::slider);
+  held.scene.bodies[0].linear_velocity = {float(sign * speed), 0, 0};
+  held.direction() = {.lower = -0.7f, .upper = 0.7f, .restitution = float(restitution)};
+  World world(held.scene, settings, in_order);
+  double farthest = 0, back = 0;
+  for (int k = 0; k < 120; ++k) {
+    world.step();
+    farthest = std::max(farthest, std::abs(way_of(world)));
+    back = std::max(back, -sign * speed_along_x(world));
+  }
+  CHECK(farthest < 0.7 + 1e-3);
+  const bool bounces = restitution > 0 && speed > double(settings.restitution_speed);
+  CHECK(back == Approx(bounces ? restitution * speed : 0).margin(0.02));
+}
+
+TEST_CASE("solvers with joints: the forces of a chain are the weights below", "[physics]")
+{
+  World world(hanging_chain(5), each_solver(), in_order);
+  run(world, 300);
+  const std::vector<JointReading> readings = world.read_joints(world.joint_ids());
+  for (int k = 0; k < 5; ++k) {
+    CAPTURE(k);
+    CHECK(readings[size_t(k)].force[1] == Approx(2 * gravity * (5 - k)).epsilon(5e-3));
+    CHECK(std::abs(readings[size_t(k)].force[0]) < 1e-3);
+  }
+}
+
+TEST_CASE("solvers with joints: a load just below the limit holds, and one just above it breaks the joint", "[physics]")
+{
+  const Settings settings = each_solver();
+  for (const bool breaks : {false, true}) {
+    CAPTURE(breaks);
+    World world(hanging_chain(3), settings, in_order);
+    run(world, 300);
+    Joint link = world.scene().joints[1];
+    link.break_force = float((breaks ? 0.95 : 1.05) * 2 * 2 * gravity);
+    world.set_joint(world.id_of_joint(1), link);
+    size_t broken = 0;
+    for (int k = 0; k < 30; ++k) {
+      world.step();
+      broken += world.joint_breaks().size();
+    }
+    CHECK(broken == (breaks ? 1 : 0));
+    CHECK(world.scene().joints[1].enabled == !breaks);
+  }
+}
+
+TEST_CASE("solvers with joints: free bodies with a joint of each type keep their momentum", "[physics]")
+{
+  const Settings settings = each_solver();
+  for (const JointType type : all_joint_types) {
+    Random random(7);
+    Scene scene = empty_scene({0, 0, 0});
+    for (int i = 0; i < 2; ++i) {
+      Body &body = add_body(scene, BodyType::dynamic, box_shape(0.5f, 0.3f, 0.2f), {1.2 * i, 0, 0.1 * i});
+      body.orientation = any_turn(random);
+      body.mass = float(1 + i);
+      body.linear_velocity = vec3_of(direction(random));
+      body.angular_velocity = vec3_of(3 * direction(random));
+    }
+    connect(scene, type, 0, 1, {0.6, 0.1, 0}, direction(random));
+    World world(scene, settings, in_order);
+    const Momentum start = momentum_of(world);
+    run(world, 200);
+    const Momentum now = momentum_of(world);
+    CAPTURE(name_of_type(type));
+    CHECK((now.linear - start.linear).norm() / start.linear_scale < 1e-5);
+    CHECK((now.angular - start.angular).norm() / start.angular_scale < 1e-5);
+    const JointErrorSummary open = open_joints(world);
+    /* they turn by less than 4 rad/s, 0.9 m from each other's frame */
+    CHECK(open.max_distance <
+          0.7 * (0.5 * std::pow(4 * substep_of(settings), 2) / share_closed(settings) + 16 * gap_under_load(settings)) +
+              1e-6);
+  }
+}
+
+TEST_CASE("solvers with joints: gears hold their ratio, and weights on a pulley fall as Atwood's do", "[physics]")
+{
+  const Settings settings = each_solver();
+  Scene scene = empty_scene();
+  for (int k = 0; k < 2; ++k) {
+    add_body(scene, BodyType::dynamic, sphere_shape(0.2f), {0, 2.0 * k, 0}).mass = float(1 + k);
+    connect(scene, JointType::hinge, no_body, uint32_t(k), {0, 2.0 * k, 0});
+  }
+  scene.joints[0].rotations[0] = {.target_velocity = 12, .motor = true, .max_force = 20};
+  Coupling coupling;
+  coupling.joint_b = 1;
+  coupling.teeth_a = 20;
+  coupling.teeth_b = 30;
+  scene.couplings = {coupling};
+  World wheels(scene, settings, in_order);
+  run(wheels, 300);
+  const auto spinning = wheels.precise_bodies();
+  CHECK(spinning[0].angular_velocity[0] == Approx(12).epsilon(1e-3));
+  CHECK(spinning[1].angular_velocity[0] == Approx(-8).epsilon(1e-3));
+
+  Scene weights = empty_scene({0, -10, 0});
+  for (int k = 0; k < 2; ++k) {
+    add_body(weights, BodyType::dynamic, sphere_shape(0.1f), {0, -5, double(k)}).mass = float(3 - k);
+    connect(weights, JointType::distance, no_body, uint32_t(k), {0, 0, double(k)});
+    place_frame(weights, uint32_t(k), {0, -5, double(k)}, Eigen::Quaterniond::Identity(),
+                weights.joints.back().position_b, weights.joints.back().orientation_b);
+  }
+  Coupling rope;
+  rope.type = CouplingType::pulley;
+  rope.joint_b = 1;
+  rope.offset = 10;
+  weights.couplings = {rope};
+  World atwoods(weights, settings, in_order);
+  run(atwoods, 45);
+  const auto falling = atwoods.precise_bodies();
+  CHECK(falling[0].linear_velocity[1] == Approx(-2 * 0.75).epsilon(5e-3)); /* (3 - 2) / (3 + 2) of 10 m/s^2 */
+  CHECK(falling[1].linear_velocity[1] == Approx(2 * 0.75).epsilon(5e-3));
+}
+
+TEST_CASE("solvers with joints: people fall over, and lie on the ground with their joints closed", "[physics]")
+{
+  const Settings settings = each_solver();
+  World world(load_scene("ragdolls:n=2,height=0"), settings, {"tbb", {}, false});
+  run(world, 400);
+  CHECK(world.statistics().kinetic_energy < 0.05);
+  CHECK(open_joints(world).max_distance < 0.02);
+  for (const PreciseBodyState &state : world.precise_bodies()) REQUIRE(state.position[1] > -0.05);
+}
+
+TEST_CASE("solvers with joints: a chain falls asleep as one, wakes, and hangs as before", "[physics]")
+{
+  Settings settings = each_solver();
+  settings.sleeping = true;
+  World world(hanging_chain(4), settings, in_order);
+  run(world, 600);
+  CHECK(world.statistics().asleep == 4);
+  const double before = world.precise_bodies()[3].position[1];
+  world.wake_body(world.id_of(3));
+  run(world, 5);
+  CHECK(std::abs(world.precise_bodies()[3].position[1] - before) < 1e-3);
+}
+
+TEST_CASE("solvers with joints: direct holds what soft joints let go", "[physics]")
+{
+  Scene scene = hanging_chain(8);
+  add_body(scene, BodyType::dynamic, sphere_shape(0.4f), {0, -8.5, 0}).mass = 2000; /* 1,000 times a link */
+  connect(scene, JointType::ball, 7, 8, {0, -7.5, 0});
+  World soft(scene, settings_for(Solver::soft_step), in_order), direct(scene, settings_for(Solver::direct), in_order);
+  run(soft, 240);
+  run(direct, 240);
+  /* each link's joints give way by a ten-thousandth of the speed that a substep of the load gives it */
+  const double h = 1.0 / 240, load = 2016 * gravity;
+  CHECK(open_joints(direct).max_distance <
+        1e-4 * load / 2 * 4 * h * h / Softness(settings_for(Solver::direct)).rate / h);
+  CHECK(open_joints(soft).max_distance > 20 * open_joints(direct).max_distance);
+}
