@@ -11,6 +11,7 @@
 #include "host/pipeline/broadphases/broadphase.h"
 #include "host/pipeline/scene_counts.h"
 #include "host/pipeline/setting_rows.h"
+#include "host/pipeline/solvers/solvers.h"
 #include "host/runtime/interface/floating_point.h"
 #include "host/runtime/interface/module.h"
 #include "host/runtime/recorder.h"
@@ -350,6 +351,9 @@ void World::Implementation::guess_counts() noexcept
   for (uint32_t color = 0; color <= COLOR_LIMIT; ++color) known[COLOR_START + color] = sixteenths(2 * color);
   for (uint32_t color = 0; color < COLOR_LIMIT; ++color)
     known[LINK_COLOR_START + color] = known[WORLD_COLOR_START + color] = sixteenths(2 * color + 1);
+  for (uint32_t color = 0; color <= COLOR_LIMIT; ++color) /* of bodies, which as many colours hold as avbd launches */
+    known[BODY_COLOR_START + color] =
+        static_cast<uint32_t>(uint64_t{special.awake} * std::min(color, first_body_colors - 1) / 8);
 }
 
 /* A module that reads or writes solver_force in any of its kernels takes part in the forces of a substep. */

@@ -273,20 +273,24 @@ typedef struct {
   vec3 impulse, moment_a, moment_b;
 } joint_wrench;
 
+SHARED joint_wrench with_wrench_of_axis(joint j, joint_frames f, uint_lanes kind, real sum, joint_wrench w)
+{
+  mask wanted = kind != (uint_lanes)(uint)JOINT_AXIS_NONE;
+  if (!any_of(wanted)) return w;
+  axis_row r = row_of_axis(j, f, kind);
+  w.impulse = choose3(wanted, add_scaled(w.impulse, r.at.direction, sum), w.impulse);
+  w.moment_a = choose3(wanted, add_scaled(w.moment_a, r.moment_a, sum), w.moment_a);
+  w.moment_b = choose3(wanted, add_scaled(w.moment_b, r.moment_b, sum), w.moment_b);
+  return w;
+}
+
 SHARED joint_wrench with_wrench_of_axes(GLOBAL const Parameters *parameters, joint j, joint_frames f,
                                         read_joint_axes axes, GLOBAL const float4 *impulse, joint_wrench w,
                                         item_index i)
 {
   for (uint k = 0; k < parameters->joint_axes; ++k) {
-    uint_lanes kind = load_uint(axes.kind, joint_plane(parameters, k) + i);
-    mask wanted = kind != (uint_lanes)(uint)JOINT_AXIS_NONE;
-    if (!any_of(wanted)) continue;
-    axis_row r = row_of_axis(j, f, kind);
     vec4 kept = load_float4(impulse, joint_plane(parameters, k) + i);
-    real sum = (kept.x + kept.y) + kept.z;
-    w.impulse = choose3(wanted, add_scaled(w.impulse, r.at.direction, sum), w.impulse);
-    w.moment_a = choose3(wanted, add_scaled(w.moment_a, r.moment_a, sum), w.moment_a);
-    w.moment_b = choose3(wanted, add_scaled(w.moment_b, r.moment_b, sum), w.moment_b);
+    w = with_wrench_of_axis(j, f, load_uint(axes.kind, joint_plane(parameters, k) + i), (kept.x + kept.y) + kept.z, w);
   }
   return w;
 }

@@ -168,7 +168,7 @@ SHARED void clear_couplings_item(GLOBAL const uint *coupling_a, GLOBAL const uin
   store_real(impulse, i, choose(awake, (real)R(0.0), load_real(impulse, i)));
 }
 
-/* Applies the impulses of the last step in the first substep. */
+/* Applies the impulses of the last step or substep. */
 SHARED void warm_start_couplings_item(GLOBAL const Parameters *parameters, read_couplings couplings, read_joints joints,
                                       read_turning_bodies bodies, GLOBAL const memory_real *impulse,
                                       GLOBAL float4 *solver_velocity, item_index i)

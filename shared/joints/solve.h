@@ -1,5 +1,5 @@
-/* solve.h - the passes of joints in the solver soft-step: limits and drives first, then angular rows
- * as one block, then linear rows as another.
+/* solve.h - the passes of joints in all solvers that have them: limits and drives first, then angular rows as one
+ * block, then linear rows as another. Which passes a solver makes: host/pipeline/solvers/joints.h.
  *
  * A joint is a soft constraint as a contact is (solve/contact.h): a pass with bias closes what is open like an
  * overdamped spring, and a relaxing pass takes the velocity of closing out again. Both blocks are solved where the
@@ -133,7 +133,7 @@ SHARED joint_wrench joint_wrench_of(GLOBAL const Parameters *parameters, joint j
   return w;
 }
 
-/* Applies the impulses of the last step in the first substep. */
+/* Applies the impulses of the last step or substep. */
 SHARED void warm_start_joints_item(GLOBAL const Parameters *parameters, read_joints joints, read_turning_bodies bodies,
                                    read_joint_axes axes, read_joint_impulses impulses, GLOBAL float4 *solver_velocity,
                                    item_index i)

@@ -19,9 +19,7 @@
 #define TANDEM_SHARED_SOLVE_NNCG_H
 
 #include "shared/solve/contact.h"
-
-/* Indices in nncg_state. */
-enum { NNCG_SUM_BEFORE, NNCG_BETA };
+#include "shared/solve/nncg_state.h"
 
 /* A change smaller than this, in joules, gives no direction. The bound also keeps the quotient a normal number. */
 #define NNCG_LEAST R(1e-30)
@@ -65,10 +63,13 @@ SHARED void nncg_change_item(GLOBAL const Parameters *parameters, read_patches p
 }
 
 /* begins: whether the pass is the first of a series, which has no change before it. */
-SHARED void nncg_beta_item(GLOBAL const memory_real *nncg_sum, GLOBAL memory_real *nncg_state, uint begins, uint only)
+SHARED void nncg_beta_item(GLOBAL const Parameters *parameters, GLOBAL const memory_real *nncg_sum,
+                           GLOBAL const memory_real *nncg_joint_sum, GLOBAL memory_real *nncg_state, uint begins,
+                           uint only)
 {
   (void)only;
   memory_real sum = nncg_sum[0], before = nncg_state[NNCG_SUM_BEFORE];
+  if (HAS_FEATURE(parameters, JOINTS)) sum = sum + nncg_joint_sum[0];
   int goes_on = begins == 0u && before > NNCG_LEAST && sum <= before;
   nncg_state[NNCG_BETA] = goes_on ? sum / before : R(0.0);
   nncg_state[NNCG_SUM_BEFORE] = sum;

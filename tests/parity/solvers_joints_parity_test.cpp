@@ -51,3 +51,39 @@ TEST_CASE("joints in every solver go on from snapshots and kept states with the 
       require_goes_on(scene, settings_for(solver), [](World &, World &) {});
   }
 }
+
+/* Its 33 hinges with friction are too large an island for direct, and without friction they are small. */
+TEST_CASE("direct: axes that go leave nothing behind that a snapshot has not")
+{
+  using namespace physics_tests;
+  Scene scene = empty_scene();
+  for (uint32_t k = 0; k < 33; ++k) {
+    add_body(scene, BodyType::dynamic, box_shape(0.4f, 0.1f, 0.1f), {double(k), 0, 0});
+    connect(scene, JointType::hinge, k == 0 ? no_body : k - 1, k, {k - 0.5, 0, 0}, Vector::UnitZ());
+    scene.joints.back().rotations[0].friction = 1;
+  }
+  World world(scene, settings_for(Solver::direct), {"serial", {}, false});
+  run(world, 3);
+  CHECK(world.statistics().direct_left == 33);
+  std::vector<Joint> joints = world.scene().joints;
+  for (Joint &joint : joints) joint.rotations[0] = {};
+  world.set_joints(world.joint_ids(), joints);
+  World restored(world.save(), {"tbb:threads=2", {}, false});
+  for (int k = 0; k < 5; ++k) {
+    world.step();
+    restored.step();
+    REQUIRE(world.state_hash() == restored.state_hash());
+  }
+  CHECK(world.statistics().direct_islands == 1);
+}
+
+TEST_CASE("direct: a scene with every feature built has the same bits")
+{
+  for (const char *scene : {"four-bar", "crane", "falling-boxes:n=30,height=0"}) {
+    Settings settings = settings_for(Solver::direct);
+    const uint64_t specialised = state_after(scene, "serial", 30, settings);
+    settings.specialise = false;
+    CAPTURE(scene);
+    CHECK(state_after(scene, "serial", 30, settings) == specialised);
+  }
+}

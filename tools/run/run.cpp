@@ -223,7 +223,7 @@ std::string facts_table(const Outcome &outcome, World &world, const Placement &p
   table.add({"contacts", fmt::format("{} points in {} pairs", statistics.contacts, statistics.manifolds)});
   table.add({"colours", fmt::format("{}", statistics.colors)});
   if (world.settings().solver == Solver::direct)
-    table.add({"islands", fmt::format("{} solved directly ({} solves stalled), {} pairs in larger ones",
+    table.add({"islands", fmt::format("{} solved directly ({} solves stalled), {} pairs and joints in larger ones",
                                       statistics.direct_islands, statistics.direct_stalled, statistics.direct_left)});
   if (world.settings().substeps == automatic_substeps)
     table.add({"substeps", fmt::format("{} in the next step", statistics.substeps)});

@@ -87,7 +87,8 @@ struct Settings {
 
   float contact_hertz = 60.0f;         /* Hz, frequency of soft contacts; at most a fifth of the substep rate is used */
   float contact_damping_ratio = 10.0f; /* overdamped, so that the removal of penetration adds no bounce */
-  float joint_hertz = 60.0f;           /* Hz, frequency of soft joints; at most a quarter of the substep rate is used */
+  float joint_hertz = 60.0f;           /* Hz, frequency of soft joints; at most a quarter of the substep rate is used;
+                                          without meaning for xpbd */
   float joint_damping_ratio = 2.0f;
   float push_speed = 3.0f;             /* m/s, the largest speed at which penetration is removed */
   float slop = 0.005f;                 /* m, penetration left in place so that contacts persist */

@@ -79,7 +79,8 @@ struct Statistics {
   uint32_t sleeping_islands = 0;
   /* Of the last step, with the solver `direct` only: */
   uint32_t direct_islands = 0; /* islands that it solved */
-  uint32_t direct_left = 0;    /* touching pairs in islands too large for it, left to the iterative solver */
+  uint32_t direct_left = 0;    /* touching pairs, joints and couplings in islands too large for it, left to
+                                  the iterative solver */
   uint32_t direct_stalled = 0; /* solves, over the passes of the step, that did not reach their tolerance */
 };
 

@@ -8,9 +8,6 @@
 namespace tandem {
 namespace {
 
-/* Used as long as the host knows no number of body colours. */
-constexpr uint32_t first_guess = 32;
-
 void color_bodies(StepLaunches &step)
 {
   const uint32_t rounds = step.plan().rounds;
@@ -28,7 +25,7 @@ uint32_t body_colors(const StepPlan &plan)
   uint32_t colors = 0;
   for (uint32_t color = 0; color < COLOR_LIMIT; ++color)
     if (plan.known[BODY_COLOR_START + color + 1] > plan.known[BODY_COLOR_START + color]) colors = color + 2;
-  return colors == 0 ? first_guess : std::min(colors, COLOR_LIMIT);
+  return colors == 0 ? first_body_colors : std::min(colors, COLOR_LIMIT);
 }
 
 void launch_iteration(StepLaunches &step, uint32_t colors)

@@ -1,5 +1,6 @@
-/* in_double.h - the shared headers of contacts and joints in double, so that the stage solve_islands has the rows of the iterative
- * solver, but for rounding: arms of b, for example, are differences that only the latter rounds to floats. */
+/* in_double.h - the shared headers of contacts and joints in double, so that the stage solve_islands has the rows of
+ * the iterative solver, but for rounding: arms of b, for example, are differences that only the latter rounds to
+ * floats. */
 #pragma once
 
 #include <cstddef>

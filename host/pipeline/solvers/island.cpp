@@ -27,9 +27,22 @@ Island::Island(IslandRows &rows, std::span<const uint32_t> edges, uint32_t pass,
 bool Island::is_finite() const
 {
   const auto finite = [](double x) { return std::isfinite(x); };
+  for (size_t r = 0; r < problem_.rows; ++r)
+    if (!(problem_.matrix[r * problem_.rows + r] > 0)) return false; /* it would divide by 0 */
   return std::all_of(problem_.matrix.begin(), problem_.matrix.end(), finite) &&
          std::all_of(problem_.offset.begin(), problem_.offset.end(), finite) &&
          std::all_of(problem_.impulse.begin(), problem_.impulse.end(), finite);
+}
+
+bool Island::bounces() const
+{
+  for (const uint32_t edge : edges_) {
+    if (!rows_.is_contact(edge)) continue;
+    for (uint32_t k = 0; k < 4; ++k)
+      if (value_of(rows_.restitution[edge], k) >= 0 && value_of(rows_.restitution[rows_.count + edge], k) > 0)
+        return true;
+  }
+  return false;
 }
 
 bool Island::solve()
@@ -175,13 +188,14 @@ void Island::assemble()
   }
 }
 
-/* Adds the compliance of joints, which is one to their whole impulses. */
 void Island::soften()
 {
   const size_t n = problem_.rows;
   for (size_t r = 0; r < n; ++r) {
     double &own = problem_.matrix[r * n + r];
-    own += list_[r].share * own + list_[r].compliance;
+    const IslandRow &row = list_[r];
+    problem_.offset[r] -= row.change_share * own * problem_.impulse[r];
+    own += (row.share + row.change_share) * own + row.compliance;
   }
 }
 

@@ -31,8 +31,9 @@ struct IslandRow {
   std::array<RowSide, 4> sides;
   uint32_t count = 0;        /* of the sides; the world is none */
   double *impulse = nullptr; /* where it is stored */
-  double share = 0;          /* by which it is compliant, of its own response */
-  double compliance = 0;     /* and beside that: of a spring */
+  double share = 0;          /* by which it is compliant to its whole impulse, of its own response */
+  double change_share = 0;   /* and to the change of its impulse in this solve */
+  double compliance = 0;     /* beside these: of a spring */
 };
 
 /* A limit has one impulse for both of its ends, each of which is a row. */
@@ -83,6 +84,8 @@ public:
   Island(IslandRows &rows, std::span<const uint32_t> edges, uint32_t pass, IslandMemory &memory);
 
   bool is_finite() const;
+  /* Whether a contact has a target velocity in a pass that makes them bounce. */
+  bool bounces() const;
   /* Returns false if the solver stalled. */
   bool solve();
 
@@ -99,7 +102,9 @@ private:
   void add_angular_block(uint32_t i, const in_double::joint &j, const in_double::joint_frames &f);
   void add_linear_block(uint32_t i, const in_double::joint &j, const in_double::joint_frames &f);
   void add_axes(uint32_t i, const in_double::joint &j, const in_double::joint_frames &f);
-  void add_drive(const IslandRow &along, const in_double::joint_axis &axis, in_double::float4 &kept);
+  void add_drive(const IslandRow &along, const in_double::joint_axis &axis, double value, in_double::float4 &kept);
+  void add_motor(IslandRow row, const in_double::joint_axis &axis, double value, double most);
+  void add_position(IslandRow row, double closing, double lower);
   void add_friction_of_axis(const IslandRow &along, const in_double::joint_axis &axis, in_double::float4 &kept);
   void add_largest_speed(const IslandRow &along, double largest);
   void add_limits(const IslandRow &along, const in_double::joint_axis &axis, double value, in_double::float4 &kept);
@@ -110,6 +115,7 @@ private:
   static void add_side(IslandRow &row, uint32_t body, const vec3 &direction, const vec3 &turn);
   static IslandRow row_between(uint32_t a, uint32_t b, const vec3 &direction, const vec3 &turn_a, const vec3 &turn_b,
                                double &impulse);
+  bool responds(const IslandRow &row) const;
   void add_row(const IslandRow &row, double bias);
   void add_bounded(const IslandRow &row, double bias, double lower, double upper);
 

@@ -1,8 +1,10 @@
 /* island_joints.cpp - the rows of joints and couplings in the dense problem of an island; see island.h.
  *
- * They are those of shared/joints/, with three differences. They are nearly rigid: a row yields by a ten-thousandth of
- * its own response, so that joints that contradict each other pull with a bounded force. The rows of a limit are two,
- * one for each end. And a soft limit that is still ahead keeps the impulse of the iterative pass.
+ * They are those of shared/joints/, with some differences. They are nearly rigid: in a pass with bias a row yields by a
+ * ten-thousandth of its own response, so that joints that contradict each other pull with a bounded force. A row that
+ * moves next to nothing takes no part. The rows of a limit are two, one for each end; a soft one that is still ahead
+ * keeps the impulse of the iterative pass. A motor is no faster than the limits of its axis let it be, and yields to
+ * changes of its impulse alone, so that it does not creep under a load.
  */
 #include <cmath>
 #include <limits>
@@ -14,7 +16,12 @@ namespace {
 
 using namespace in_double;
 
-constexpr double joint_share = 1e-4, motor_share = 1e-2;
+constexpr double joint_share = 1e-4;
+/* Two motors without a largest force may contradict each other. */
+constexpr double unbounded_motor_share = 1e-6;
+/* A row whose response is less than this share of what it would be without locks and directions of great inertia takes
+ * no part, as LEAST_PIVOT of shared/joints/block.h has it. */
+constexpr double least_response = 1e-6;
 constexpr double unbounded = std::numeric_limits<double>::infinity();
 /* A limit that is farther away than this, m or rad, is none: kernels have a number in place of an infinite one. */
 constexpr double farthest_limit = 1e20;
@@ -48,6 +55,14 @@ double closing_of(const Parameters &parameters, double open)
   return push * share_of_closing(push);
 }
 
+/* The speed up to which a motor may go towards a limit that is `open` away, so that it does not contradict the limit.
+ */
+double speed_to(const Parameters &parameters, double open, uint32_t pass)
+{
+  if (open > 0) return open * parameters.inverse_substep;
+  return pass == PASS_BIASED ? closing_of(parameters, open) : 0;
+}
+
 /* A spring and damper over a substep, as rows have it: speed + bias + compliance * impulse = 0. */
 struct ImplicitSpring {
   double compliance = 0, bias = 0;
@@ -63,10 +78,35 @@ ImplicitSpring spring_of(const Parameters &parameters, double stiffness, double 
 
 } // namespace
 
+bool Island::responds(const IslandRow &row) const
+{
+  double response = 0, free = 0;
+  for (uint32_t k = 0; k < row.count; ++k) {
+    const RowSide &side = row.sides[k];
+    if (!rows_.moves(side.body)) continue;
+    const double inverse_mass = rows_.velocity[2 * side.body].w;
+    response += inverse_mass * dot3(rows_.free_part(side.body, side.direction), side.direction) +
+                dot3(rows_.turned_by(side.body, side.turn), side.turn);
+    double trace = 0;
+    for (uint32_t l = 0; l < 3; ++l) trace += entry_of(rows_.turned_by(side.body, unit_vector(l)), l);
+    free += inverse_mass * dot3(side.direction, side.direction) + trace * dot3(side.turn, side.turn);
+  }
+  return response > least_response * free;
+}
+
 void Island::add_bounded(const IslandRow &row, double bias, double lower, double upper)
 {
+  if (!responds(row)) return;
   problem_.bounded.push_back({static_cast<uint32_t>(list_.size()), lower, upper});
   add_row(row, bias);
+}
+
+/* A row that closes a gap in a pass with bias, and rests in others. lower: of its impulse. */
+void Island::add_position(IslandRow row, double closing, double lower)
+{
+  const bool biased = pass_ == PASS_BIASED;
+  if (biased) row.share = joint_share;
+  add_bounded(row, biased ? closing : 0, lower, unbounded);
 }
 
 void Island::add_joint(uint32_t i)
@@ -90,8 +130,7 @@ void Island::add_angular_block(uint32_t i, const joint &j, const joint_frames &f
     const vec3 axis = axis_of(f.axes, k);
     IslandRow row = row_of_joint(j, {0, 0, 0}, axis, axis);
     row.impulse = component_of(rows_.tables.angular[i], k);
-    if (pass_ == PASS_BIASED) row.share = joint_share;
-    add_bounded(row, pass_ == PASS_BIASED ? entry_of(closing, k) : 0, -unbounded, unbounded);
+    add_position(row, entry_of(closing, k), -unbounded);
   }
 }
 
@@ -106,8 +145,7 @@ void Island::add_linear_block(uint32_t i, const joint &j, const joint_frames &f)
     const vec3 axis = whole ? unit_vector(k) : axis_of(f.axes, k);
     IslandRow row = row_of_joint(j, axis, cross3(j.a.arm, axis), cross3(j.b.arm, axis));
     row.impulse = component_of(rows_.tables.linear[i], k);
-    if (pass_ == PASS_BIASED) row.share = joint_share;
-    add_bounded(row, pass_ == PASS_BIASED ? entry_of(closing, k) : 0, -unbounded, unbounded);
+    add_position(row, entry_of(closing, k), -unbounded);
   }
 }
 
@@ -119,22 +157,33 @@ void Island::add_axes(uint32_t i, const joint &j, const joint_frames &f)
     const axis_row r = row_of_axis(j, f, axis.kind);
     const IslandRow along = row_of_joint(j, r.at.direction, r.moment_a, r.moment_b);
     float4 &kept = rows_.tables.axis[joint_plane(&rows_.parameters, k) + i];
-    add_drive(along, axis, kept);
+    const double value = value_near_range(&r, &axis);
+    add_drive(along, axis, value, kept);
     add_friction_of_axis(along, axis, kept);
     add_largest_speed(along, axis.largest_speed);
-    add_limits(along, axis, value_near_range(&r, &axis), kept);
+    add_limits(along, axis, value, kept);
   }
 }
 
-/* A motor without a largest force yields more than a limit, which is therefore stronger. */
-void Island::add_drive(const IslandRow &along, const joint_axis &axis, float4 &kept)
+void Island::add_motor(IslandRow row, const joint_axis &axis, double value, double most)
+{
+  double target = axis.target_speed;
+  if (!(axis.limit_stiffness > 0)) {
+    target = std::min(target, speed_to(rows_.parameters, axis.upper - value, pass_));
+    target = std::max(target, -speed_to(rows_.parameters, value - axis.lower, pass_));
+  }
+  row.change_share = joint_share;
+  if (axis.largest_force > farthest_limit) row.share = unbounded_motor_share;
+  add_bounded(row, -target, -most, most);
+}
+
+void Island::add_drive(const IslandRow &along, const joint_axis &axis, double value, float4 &kept)
 {
   IslandRow row = along;
   row.impulse = &kept.x;
   const double most = axis.largest_force * rows_.parameters.substep;
   if (axis.damping < 0) {
-    row.share = axis.largest_force > farthest_limit ? motor_share : joint_share;
-    add_bounded(row, -axis.target_speed, -most, most);
+    add_motor(row, axis, value, most);
     return;
   }
   const double open = distance_from(kept.w, axis.target, is_rotation(axis.kind));
@@ -187,11 +236,13 @@ void Island::add_limits(const IslandRow &along, const joint_axis &axis, double v
 
 void Island::add_held(IslandRow row, double open, const joint_axis &axis)
 {
+  if (!(axis.limit_stiffness > 0)) {
+    add_position(row, closing_of(rows_.parameters, open), -unbounded);
+    return;
+  }
   const ImplicitSpring spring = spring_of(rows_.parameters, axis.limit_stiffness, axis.limit_damping, open, 0);
-  if (axis.limit_stiffness > 0) row.compliance = spring.compliance;
-  else if (pass_ == PASS_BIASED) row.share = joint_share;
-  const double closing = pass_ == PASS_BIASED ? closing_of(rows_.parameters, open) : 0;
-  add_bounded(row, axis.limit_stiffness > 0 ? spring.bias : closing, -unbounded, unbounded);
+  row.compliance = spring.compliance;
+  add_bounded(row, spring.bias, -unbounded, unbounded);
 }
 
 /* One end of a range. open: the way that is left, negative beyond it. */
@@ -206,13 +257,9 @@ void Island::add_stop(IslandRow row, const joint_axis &axis, double open)
     add_bounded(row, spring.bias, 0, unbounded);
     return;
   }
-  if (ahead) {
-    if (pass_ == PASS_BIASED || *row.impulse > 0)
-      add_bounded(row, open * rows_.parameters.inverse_substep, 0, unbounded);
-    return;
-  }
-  if (pass_ == PASS_BIASED) row.share = joint_share;
-  add_bounded(row, pass_ == PASS_BIASED ? closing_of(rows_.parameters, open) : 0, 0, unbounded);
+  if (!ahead) add_position(row, closing_of(rows_.parameters, open), 0);
+  else if (pass_ == PASS_BIASED || *row.impulse > 0)
+    add_bounded(row, open * rows_.parameters.inverse_substep, 0, unbounded);
 }
 
 void Island::add_coupling(uint32_t i)

@@ -2,7 +2,6 @@
 #include "host/pipeline/solvers/island_rows.h"
 
 #include <algorithm>
-#include <bit>
 #include <cstddef>
 #include <cstring>
 
@@ -191,25 +190,20 @@ IslandRows::vec3 IslandRows::turned_by(uint32_t body, const vec3 &angular_impuls
 IslandRows::Ends IslandRows::ends(uint32_t edge) const
 {
   if (is_contact(edge)) return {a[edge], b[edge], INDEX_NONE, INDEX_NONE};
-  if (is_joint(edge)) return {tables.a[joint_of(edge)], tables.b[joint_of(edge)], INDEX_NONE, INDEX_NONE};
+  constexpr Ends none = {INDEX_NONE, INDEX_NONE, INDEX_NONE, INDEX_NONE};
+  if (is_joint(edge)) {
+    const uint32_t joint = joint_of(edge);
+    return tables.rows[joint] > 0 ? Ends{tables.a[joint], tables.b[joint], INDEX_NONE, INDEX_NONE} : none;
+  }
   const uint32_t one = tables.coupling_a[coupling_of(edge)], other = tables.coupling_b[coupling_of(edge)];
-  if (one == INDEX_NONE || other == INDEX_NONE) return {INDEX_NONE, INDEX_NONE, INDEX_NONE, INDEX_NONE};
+  if (one == INDEX_NONE || other == INDEX_NONE) return none;
   return {tables.a[one], tables.b[one], tables.a[other], tables.b[other]};
 }
 
 uint32_t IslandRows::size_of(uint32_t edge) const
 {
   if (is_contact(edge)) return points_of(edge);
-  return is_joint(edge) ? (rows_of_joint(joint_of(edge)) + 3) / 4 : 1;
-}
-
-/* An axis has a drive, friction, and two ends of its limits and its speed. */
-uint32_t IslandRows::rows_of_joint(uint32_t joint) const
-{
-  auto rows = static_cast<uint32_t>(std::popcount(tables.modes[joint]));
-  for (size_t k = joint; k < tables.axis_kind.size(); k += parameters.joints)
-    if (tables.axis_kind[k] != in_double::JOINT_AXIS_NONE) rows += 6;
-  return rows;
+  return is_joint(edge) ? (tables.rows[joint_of(edge)] + 3) / 4 : 1;
 }
 
 uint32_t IslandRows::points_of(uint32_t constraint) const

@@ -32,12 +32,13 @@ public:
   uint32_t edges() const { return count + tables.joint_count + tables.coupling_count; }
   bool has_joints() const { return HAS_FEATURE(&parameters, JOINTS); }
   /* For which buffers have room. */
-  size_t most_edges() const { return size_t{stride} + tables.joint_count + tables.coupling_count; }
+  size_t most_edges() const { return size_t{stride} + tables.most(); }
   bool is_contact(uint32_t edge) const { return edge < count; }
   bool is_joint(uint32_t edge) const { return edge >= count && edge - count < tables.joint_count; }
   uint32_t joint_of(uint32_t edge) const { return edge - count; }
   uint32_t coupling_of(uint32_t edge) const { return edge - count - tables.joint_count; }
-  /* The bodies of an edge, INDEX_NONE for each that is the world or not there. */
+  /* The bodies of an edge, INDEX_NONE for each that is the world or not there. A joint without rows connects nothing.
+   */
   using Ends = std::array<uint32_t, 4>;
   Ends ends(uint32_t edge) const;
   /* As many contact points as have no fewer rows. */
@@ -74,7 +75,6 @@ private:
   void read_changed(Memory &memory, Buffer buffer, size_t planes, std::vector<float4> &rows);
   void read_bodies(Memory &memory, Buffer buffer, size_t planes, std::vector<float4> &rows);
   uint32_t points_of(uint32_t constraint) const;
-  uint32_t rows_of_joint(uint32_t joint) const;
 
   std::array<uint32_t, COUNT_TOTAL> counts_{};
   ChangedBuffers changed_;

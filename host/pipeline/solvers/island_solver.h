@@ -1,5 +1,5 @@
-/* island_solver.h - one dense problem of contacts with friction and of joints, solved to convergence in double; islands.h makes the
- * problems.
+/* island_solver.h - one dense problem of contacts with friction and of joints, solved to convergence in double;
+ * island.h makes the problems.
  *
  *   w = W x + offset          W: Delassus operator, x: impulses, w: speeds of the rows
  *

@@ -31,13 +31,20 @@ public:
     return {coupling_a.data(), coupling_b.data(), coupling_kind.data(), coupling_row.data()};
   }
 
-  uint32_t joint_count = 0, coupling_count = 0;
+  /* Of joints and couplings together, for which buffers have room. */
+  size_t most() const { return most_; }
+
+  uint32_t joint_count = 0, coupling_count = 0; /* of those awake */
+  std::vector<uint32_t> rows;                   /* of each joint, at most */
   std::vector<uint32_t> a, b, modes, axis_kind, coupling_a, coupling_b, coupling_kind;
   std::vector<float4> arm_a, arm_b, frame_a, frame_b, offset, axis_row, linear, angular, axis, coupling_row;
   std::vector<double> coupling_impulse;
 
 private:
+  void count_rows(size_t stride, size_t most);
+
   size_t axes_ = 0; /* planes times joints */
+  size_t most_ = 0;
   bool frames_ = false;
 };
 

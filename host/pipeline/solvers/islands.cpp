@@ -156,6 +156,7 @@ Outcome solve_one(IslandRows &rows, Islands &islands, size_t k, uint32_t pass, I
   if (!islands.is_small(k)) return Outcome::left;
   Island island(rows, in_narrow_order(rows, islands, k), pass, memory);
   if (!island.is_finite()) return Outcome::left;
+  if (pass == PASS_BOUNCING && !island.bounces()) return Outcome::solved; /* by the passes before */
   return island.solve() ? Outcome::solved : Outcome::stalled;
 }
 

@@ -6,7 +6,8 @@
  *
  *   soft-step, pgs, nncg   a pass over joints in each pass over contacts, the joints of a colour before its contacts
  *   jacobi                 the same, but contacts come after all joints
- *   xpbd                   passes with bias alone, from no impulses in each substep; joints are as rigid as contacts
+ *   direct                 the passes of soft-step, and after them joints and contacts of small islands together
+ *   xpbd                   from no impulses in each substep; what is open is closed whole, and then velocities
  */
 #pragma once
 

@@ -12,20 +12,36 @@ namespace {
  * (shared/solve/mass_split.h). */
 constexpr uint32_t colored = COLOR_START + COLOR_OVERFLOW;
 
+void measure_change_of_joints(StepLaunches &step)
+{
+  step.run(Kernel::nncg_change_joints);
+  reduce_real(step.launcher(), Reduction::sum, Buffer::nncg_joint_square, Buffer::nncg_joint_partial,
+              Buffer::nncg_joint_sum, COUNT_JOINTS, step.plan().known[COUNT_JOINTS]);
+}
+
+void begin_direction(StepLaunches &step)
+{
+  step.run_range(Kernel::nncg_begin, COUNT_ZERO, colored);
+  if (step.has(FEATURE_JOINTS)) step.run(Kernel::nncg_begin_joints);
+}
+
 void go_on_along_direction(StepLaunches &step, bool first)
 {
   step.run_range(Kernel::nncg_change, COUNT_ZERO, colored);
   reduce_real(step.launcher(), Reduction::sum, Buffer::nncg_square, Buffer::nncg_partial, Buffer::nncg_sum, colored,
               step.plan().capacity_pairs);
+  if (step.has(FEATURE_JOINTS)) measure_change_of_joints(step);
   step.run(Kernel::nncg_beta, {first ? 1u : 0u});
   step.for_each_color(Kernel::nncg_advance);
+  step.for_each_joint_color(Kernel::nncg_advance_joints);
+  step.run_overflow_joints(Kernel::nncg_advance_overflow_joints);
 }
 
 /* No direction step follows the last pass, so the impulses end within their cones. */
 void launch_passes(StepLaunches &step, MassSplit &overflow, uint32_t pass)
 {
   const uint32_t iterations = step.settings().iterations;
-  if (iterations > 1) step.run_range(Kernel::nncg_begin, COUNT_ZERO, colored);
+  if (iterations > 1) begin_direction(step);
   for (uint32_t iteration = 0; iteration < iterations; ++iteration) {
     launch_pgs_pass(step, overflow, pass);
     if (iteration + 1 < iterations) go_on_along_direction(step, iteration == 0);

@@ -36,6 +36,9 @@ void commit_avbd(StepLaunches &step);
 void launch_jacobi(StepLaunches &step);
 void launch_direct(StepLaunches &step);
 
+/* So many colours of bodies avbd launches as long as the host knows no number of them. */
+constexpr uint32_t first_body_colors = 32;
+
 class MassSplit;
 
 /* Launches that several solvers share: the impulses of the last step or substep, applied once more; one pass of pgs,
