@@ -325,10 +325,9 @@ TEST_CASE("solvers with joints: conjugate gradients leave a chain less speed tha
     world.step();
     return fastest(world);
   };
-  for (const uint32_t iterations : {10u, 20u}) {
-    CAPTURE(iterations, speed_left(Solver::nncg, iterations), speed_left(Solver::pgs, iterations));
-    CHECK(speed_left(Solver::nncg, iterations) < 0.7 * speed_left(Solver::pgs, iterations));
-  }
+  CHECK(speed_left(Solver::nncg, 10) < speed_left(Solver::pgs, 10));
+  /* of twelve joints there are twelve directions */
+  CHECK(speed_left(Solver::nncg, 20) < 0.4 * speed_left(Solver::pgs, 20));
   CHECK(speed_left(Solver::nncg, 1) == speed_left(Solver::pgs, 1));
 }
 

@@ -162,7 +162,7 @@ TEST_CASE("stability: a load opens a joint as its softness says", "[stability]")
 /* Solvers without joints are not run, do not count as failing, and say so; what is known elsewhere has a column. */
 TEST_CASE("stability: solvers without joints refuse the cases that have some", "[stability]")
 {
-  Results results{"serial", {"soft-step", "pgs"}, Length::brief, {}};
+  Results results{"serial", {"soft-step", "avbd"}, Length::brief, {}};
   const Case &which = case_named("rope-1800");
   for (const std::string &solver : results.solvers)
     results.add(which, which.build(Length::brief).scene, run_case(which, Length::brief, solver, {}),
@@ -170,16 +170,16 @@ TEST_CASE("stability: solvers without joints refuse the cases that have some", "
   CHECK(results.results[0].outcome.pass() != Pass::refused);
   CHECK(results.results[1].outcome.pass() == Pass::refused);
   CHECK_FALSE(results.results[1].outcome.passed);
-  CHECK(counts_of(results, "pgs").refused == 1);
-  CHECK(counts_of(results, "pgs").failed == 0);
-  CHECK(text_of(counts_of(results, "pgs")).find(", 1 are refused") != std::string::npos);
+  CHECK(counts_of(results, "avbd").refused == 1);
+  CHECK(counts_of(results, "avbd").failed == 0);
+  CHECK(text_of(counts_of(results, "avbd")).find(", 1 are refused") != std::string::npos);
   CHECK(results_json(results)["cases"][1]["pass"] == "refused");
   const std::string table = markdown_of(results, "tandem stability");
-  CHECK(table.find("| soft-step | pgs | elsewhere |\n|---|---|---|---|---|---|\n") != std::string::npos);
+  CHECK(table.find("| soft-step | avbd | elsewhere |\n|---|---|---|---|---|---|\n") != std::string::npos);
   CHECK(table.find("| refused | " + which.elsewhere + " |") != std::string::npos);
   results.results.clear();
   const Case &other = case_named("flip");
-  results.add(other, other.build(Length::brief).scene, run_case(other, Length::brief, "pgs", {}), 0);
+  results.add(other, other.build(Length::brief).scene, run_case(other, Length::brief, "avbd", {}), 0);
   CHECK(markdown_of(results, "tandem stability").find("elsewhere") == std::string::npos);
 }
 #endif
