@@ -209,7 +209,8 @@ TEST_CASE("solvers with joints: a load just below the limit holds, and one just 
 TEST_CASE("solvers with joints: free bodies with a joint of each type keep their momentum", "[physics]")
 {
   const Settings settings = each_solver();
-  for (const JointType type : all_joint_types) {
+  for (size_t number = 0; number < joint_type_names().size(); ++number) {
+    const auto type = static_cast<JointType>(number);
     Random random(7);
     Scene scene = empty_scene({0, 0, 0});
     for (int i = 0; i < 2; ++i) {
@@ -394,9 +395,7 @@ TEST_CASE("solvers with joints: a motor without a largest torque is a brake, wha
   run(world, 60);
   const double before = height();
   run(world, 240);
-  /* soft joints sag by the load on the softness of the fixed joint; no motor may creep */
-  CHECK(std::abs(height() - before) < 4 * 0.003);
-  if (settings.solver == Solver::direct) CHECK(std::abs(height() - before) < 1e-4);
+  CHECK(std::abs(height() - before) < 5e-4); /* it has sagged by the softness of the joints, and does not creep */
 }
 
 TEST_CASE("solvers with joints: what direct solves", "[physics]")
