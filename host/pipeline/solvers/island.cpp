@@ -34,17 +34,6 @@ bool Island::is_finite() const
          std::all_of(problem_.impulse.begin(), problem_.impulse.end(), finite);
 }
 
-bool Island::bounces() const
-{
-  for (const uint32_t edge : edges_) {
-    if (!rows_.is_contact(edge)) continue;
-    for (uint32_t k = 0; k < 4; ++k)
-      if (value_of(rows_.restitution[edge], k) >= 0 && value_of(rows_.restitution[rows_.count + edge], k) > 0)
-        return true;
-  }
-  return false;
-}
-
 bool Island::solve()
 {
   if (problem_.rows == 0) return true;
@@ -194,7 +183,8 @@ void Island::soften()
   for (size_t r = 0; r < n; ++r) {
     double &own = problem_.matrix[r * n + r];
     const IslandRow &row = list_[r];
-    problem_.offset[r] -= row.change_share * own * problem_.impulse[r];
+    const double most = row.kept_speed / own;
+    problem_.offset[r] -= row.change_share * own * std::clamp(problem_.impulse[r], -most, most);
     own += (row.share + row.change_share) * own + row.compliance;
   }
 }

@@ -32,8 +32,9 @@ struct IslandRow {
   uint32_t count = 0;        /* of the sides; the world is none */
   double *impulse = nullptr; /* where it is stored */
   double share = 0;          /* by which it is compliant to its whole impulse, of its own response */
-  double change_share = 0;   /* and to the change of its impulse in this solve */
-  double compliance = 0;     /* beside these: of a spring */
+  double change_share = 0;   /* and to the change of its impulse, by that */
+  double kept_speed = 0; /* the change counts from an impulse that gives the row no more than this speed, m/s, rad/s */
+  double compliance = 0; /* beside these: of a spring */
 };
 
 /* A limit has one impulse for both of its ends, each of which is a row. */
@@ -84,8 +85,6 @@ public:
   Island(IslandRows &rows, std::span<const uint32_t> edges, uint32_t pass, IslandMemory &memory);
 
   bool is_finite() const;
-  /* Whether a contact has a target velocity in a pass that makes them bounce. */
-  bool bounces() const;
   /* Returns false if the solver stalled. */
   bool solve();
 

@@ -3,8 +3,11 @@
  * They are those of shared/joints/, with some differences. They are nearly rigid: in a pass with bias a row yields by a
  * ten-thousandth of its own response, so that joints that contradict each other pull with a bounded force. A row that
  * moves next to nothing takes no part. The rows of a limit are two, one for each end; a soft one that is still ahead
- * keeps the impulse of the iterative pass. A motor is no faster than the limits of its axis let it be, and yields to
- * changes of its impulse alone, so that it does not creep under a load.
+ * keeps the impulse of the iterative pass.
+ *
+ * Motors are weaker than all that holds. A motor yields to a hundredth, but only to changes of its impulse, so that it
+ * does not creep under a load, until that impulse would give what it turns 200 rad/s in a substep: a load of thousands
+ * of times its mass, or something that it can never move. It is no faster than limits and speed of its axis let it be.
  */
 #include <cmath>
 #include <limits>
@@ -16,12 +19,10 @@ namespace {
 
 using namespace in_double;
 
-constexpr double joint_share = 1e-4;
-/* Two motors without a largest force may contradict each other. */
-constexpr double unbounded_motor_share = 1e-6;
-/* A row whose response is less than this share of what it would be without locks and directions of great inertia takes
- * no part, as LEAST_PIVOT of shared/joints/block.h has it. */
-constexpr double least_response = 1e-6;
+constexpr double joint_share = 1e-4, motor_share = 1e-2, motor_kept_speed = 200;
+/* A row whose response is below the rounding of its bodies' tensors takes no part, as a lock or inertia without end
+ * leaves it none. */
+constexpr double least_response = 0x1p-22;
 constexpr double unbounded = std::numeric_limits<double>::infinity();
 /* A limit that is farther away than this, m or rad, is none: kernels have a number in place of an infinite one. */
 constexpr double farthest_limit = 1e20;
@@ -167,13 +168,14 @@ void Island::add_axes(uint32_t i, const joint &j, const joint_frames &f)
 
 void Island::add_motor(IslandRow row, const joint_axis &axis, double value, double most)
 {
-  double target = axis.target_speed;
+  double target = std::clamp(axis.target_speed, -axis.largest_speed, axis.largest_speed);
   if (!(axis.limit_stiffness > 0)) {
+    if (axis.lower == axis.upper) return; /* it is held there */
     target = std::min(target, speed_to(rows_.parameters, axis.upper - value, pass_));
     target = std::max(target, -speed_to(rows_.parameters, value - axis.lower, pass_));
   }
-  row.change_share = joint_share;
-  if (axis.largest_force > farthest_limit) row.share = unbounded_motor_share;
+  row.change_share = motor_share;
+  row.kept_speed = motor_kept_speed;
   add_bounded(row, -target, -most, most);
 }
 
