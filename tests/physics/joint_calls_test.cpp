@@ -21,17 +21,6 @@ Scene held_box()
 
 double speed_of_fall(World &world, uint32_t body) { return -double(world.bodies()[body].linear_velocity[1]); }
 
-/* Boxes that hang one below the other, by fixed joints half-way between. */
-Scene hanging_boxes(int boxes, float mass, JointType type = JointType::ball)
-{
-  Scene scene = empty_scene();
-  for (int k = 0; k < boxes; ++k) {
-    add_body(scene, BodyType::dynamic, box_shape(0.2f, 0.2f, 0.2f), {0, -double(k), 0}).mass = mass;
-    connect(scene, type, k == 0 ? no_body : uint32_t(k - 1), uint32_t(k), {0, 0.5 - k, 0});
-  }
-  return scene;
-}
-
 /* A bar of a metre that sticks out from the world along x, on a joint at its end. */
 Scene cantilever(JointType type, float mass = 3)
 {

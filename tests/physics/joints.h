@@ -56,6 +56,32 @@ inline Joint &connect(Scene &scene, JointType type, uint32_t a, uint32_t b, cons
   return scene.joints.back();
 }
 
+/* Boxes that hang one below the other, on joints half-way between. */
+inline Scene hanging_boxes(int boxes, float mass, JointType type = JointType::ball)
+{
+  Scene scene = empty_scene();
+  for (int k = 0; k < boxes; ++k) {
+    add_body(scene, BodyType::dynamic, box_shape(0.2f, 0.2f, 0.2f), {0, -double(k), 0}).mass = mass;
+    connect(scene, type, k == 0 ? no_body : uint32_t(k - 1), uint32_t(k), {0, 0.5 - k, 0});
+  }
+  return scene;
+}
+
+/* Two free boxes that fly and tumble, with a joint between them. */
+inline Scene tumbling_pair(Random &random, JointType type)
+{
+  Scene scene = empty_scene({0, 0, 0});
+  for (int i = 0; i < 2; ++i) {
+    Body &body = add_body(scene, BodyType::dynamic, box_shape(0.5f, 0.3f, 0.2f), {1.2 * i, 0, 0.1 * i});
+    body.orientation = any_turn(random);
+    body.mass = float(1 + i);
+    body.linear_velocity = vec3_of(direction(random));
+    body.angular_velocity = vec3_of(3 * direction(random));
+  }
+  connect(scene, type, 0, 1, {0.6, 0.1, 0}, direction(random));
+  return scene;
+}
+
 inline JointErrorSummary open_joints(World &world)
 {
   return summary_of(joint_errors(world.scene(), world.precise_bodies()));

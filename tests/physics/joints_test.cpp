@@ -308,16 +308,7 @@ TEST_CASE("free bodies with a joint of each type keep their momentum", "[physics
   const JointType type = GENERATE(from_range(std::begin(all_joint_types), std::end(all_joint_types)));
   const uint64_t seed = GENERATE(3, 4, 5);
   Random random(seed);
-  Scene scene = empty_scene({0, 0, 0});
-  for (int i = 0; i < 2; ++i) {
-    Body &body = add_body(scene, BodyType::dynamic, box_shape(0.5f, 0.3f, 0.2f), {1.2 * i, 0, 0.1 * i});
-    body.orientation = any_turn(random);
-    body.mass = float(1 + i);
-    body.linear_velocity = vec3_of(direction(random));
-    body.angular_velocity = vec3_of(3 * direction(random));
-  }
-  connect(scene, type, 0, 1, {0.6, 0.1, 0}, direction(random));
-  World world(scene, {}, on_serial);
+  World world(tumbling_pair(random, type), {}, on_serial);
   const Momentum start = momentum_of(world);
   double linear = 0, angular = 0;
   for (int step = 0; step < 300; ++step) {

@@ -57,15 +57,7 @@ double speed_along_x(World &world) { return world.precise_bodies()[0].linear_vel
 double spin_about_x(World &world) { return world.precise_bodies()[0].angular_velocity[0]; }
 
 /* Boxes of 2 kg that hang one below the other. */
-Scene hanging_chain(int boxes)
-{
-  Scene scene = empty_scene();
-  for (int k = 0; k < boxes; ++k) {
-    add_body(scene, BodyType::dynamic, box_shape(0.2f, 0.2f, 0.2f), {0, -double(k), 0}).mass = 2;
-    connect(scene, JointType::ball, k == 0 ? no_body : uint32_t(k - 1), uint32_t(k), {0, 0.5 - k, 0});
-  }
-  return scene;
-}
+Scene hanging_chain(int boxes) { return hanging_boxes(boxes, 2); }
 
 } // namespace
 
@@ -214,16 +206,7 @@ TEST_CASE("solvers with joints: free bodies with a joint of each type keep their
   for (size_t number = 0; number < joint_type_names().size(); ++number) {
     const auto type = static_cast<JointType>(number);
     Random random(7);
-    Scene scene = empty_scene({0, 0, 0});
-    for (int i = 0; i < 2; ++i) {
-      Body &body = add_body(scene, BodyType::dynamic, box_shape(0.5f, 0.3f, 0.2f), {1.2 * i, 0, 0.1 * i});
-      body.orientation = any_turn(random);
-      body.mass = float(1 + i);
-      body.linear_velocity = vec3_of(direction(random));
-      body.angular_velocity = vec3_of(3 * direction(random));
-    }
-    connect(scene, type, 0, 1, {0.6, 0.1, 0}, direction(random));
-    World world(scene, settings, in_order);
+    World world(tumbling_pair(random, type), settings, in_order);
     const Momentum start = momentum_of(world);
     run(world, 200);
     const Momentum now = momentum_of(world);

@@ -43,19 +43,14 @@ bool Island::solve()
   return converged;
 }
 
-void Island::add_side(IslandRow &row, uint32_t body, const vec3 &direction, const vec3 &turn)
-{
-  row.sides[row.count++] = {body, direction, turn};
-}
-
 /* Pushes b, and a the other way. */
 IslandRow Island::row_between(uint32_t a, uint32_t b, const vec3 &direction, const vec3 &turn_a, const vec3 &turn_b,
                               double &impulse)
 {
   IslandRow row;
   row.impulse = &impulse;
-  add_side(row, a, negate(direction), negate(turn_a));
-  add_side(row, b, direction, turn_b);
+  row.add_side(a, negate(direction), negate(turn_a));
+  row.add_side(b, direction, turn_b);
   return row;
 }
 

@@ -28,6 +28,11 @@ struct RowSide {
 };
 
 struct IslandRow {
+  void add_side(uint32_t body, const in_double::vec3 &direction, const in_double::vec3 &turn)
+  {
+    sides[count++] = {body, direction, turn};
+  }
+
   std::array<RowSide, 4> sides;
   uint32_t count = 0;        /* of the sides; the world is none */
   double *impulse = nullptr; /* where it is stored */
@@ -107,11 +112,11 @@ private:
   void add_friction_of_axis(const IslandRow &along, const in_double::joint_axis &axis, in_double::float4 &kept);
   void add_largest_speed(const IslandRow &along, double largest);
   void add_limits(const IslandRow &along, const in_double::joint_axis &axis, double value, in_double::float4 &kept);
+  void add_soft_limit(IslandRow row, const in_double::joint_axis &axis, double open, double lower);
   void add_stop(IslandRow row, const in_double::joint_axis &axis, double open);
   void add_held(IslandRow row, double open, const in_double::joint_axis &axis);
   void add_coupling(uint32_t i);
 
-  static void add_side(IslandRow &row, uint32_t body, const vec3 &direction, const vec3 &turn);
   static IslandRow row_between(uint32_t a, uint32_t b, const vec3 &direction, const vec3 &turn_a, const vec3 &turn_b,
                                double &impulse);
   bool responds(const IslandRow &row) const;

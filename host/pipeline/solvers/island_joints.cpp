@@ -44,8 +44,8 @@ IslandRow opposite_of(IslandRow row)
 IslandRow row_of_joint(const joint &j, const vec3 &direction, const vec3 &moment_a, const vec3 &moment_b)
 {
   IslandRow row;
-  if (!j.a.is_world) row.sides[row.count++] = {j.a.body, negate(direction), negate(moment_a)};
-  if (!j.b.is_world) row.sides[row.count++] = {j.b.body, direction, moment_b};
+  if (!j.a.is_world) row.add_side(j.a.body, negate(direction), negate(moment_a));
+  if (!j.b.is_world) row.add_side(j.b.body, direction, moment_b);
   return row;
 }
 
@@ -236,15 +236,18 @@ void Island::add_limits(const IslandRow &along, const joint_axis &axis, double v
   add_stop(row, axis, axis.upper - value);
 }
 
-void Island::add_held(IslandRow row, double open, const joint_axis &axis)
+/* lower: of its impulse. */
+void Island::add_soft_limit(IslandRow row, const joint_axis &axis, double open, double lower)
 {
-  if (!(axis.limit_stiffness > 0)) {
-    add_position(row, closing_of(rows_.parameters, open), -unbounded);
-    return;
-  }
   const ImplicitSpring spring = spring_of(rows_.parameters, axis.limit_stiffness, axis.limit_damping, open, 0);
   row.compliance = spring.compliance;
-  add_bounded(row, spring.bias, -unbounded, unbounded);
+  add_bounded(row, spring.bias, lower, unbounded);
+}
+
+void Island::add_held(IslandRow row, double open, const joint_axis &axis)
+{
+  if (axis.limit_stiffness > 0) add_soft_limit(row, axis, open, -unbounded);
+  else add_position(row, closing_of(rows_.parameters, open), -unbounded);
 }
 
 /* One end of a range. open: the way that is left, negative beyond it. */
@@ -253,10 +256,7 @@ void Island::add_stop(IslandRow row, const joint_axis &axis, double open)
   if (open > farthest_limit) return;
   const bool ahead = open > 0;
   if (axis.limit_stiffness > 0) {
-    if (ahead) return;
-    const ImplicitSpring spring = spring_of(rows_.parameters, axis.limit_stiffness, axis.limit_damping, open, 0);
-    row.compliance = spring.compliance;
-    add_bounded(row, spring.bias, 0, unbounded);
+    if (!ahead) add_soft_limit(row, axis, open, 0);
     return;
   }
   if (!ahead) add_position(row, closing_of(rows_.parameters, open), 0);
@@ -271,7 +271,7 @@ void Island::add_coupling(uint32_t i)
   if (!c.awake) return;
   IslandRow row;
   for (const coupled_side *side : {&c.aa, &c.ab, &c.ba, &c.bb})
-    if (side->acts && !side->side.is_world) row.sides[row.count++] = {side->side.body, side->impulse, side->moment};
+    if (side->acts && !side->side.is_world) row.add_side(side->side.body, side->impulse, side->moment);
   row.impulse = &rows_.tables.coupling_impulse[i];
   const bool one_sided = (rows_.tables.coupling_kind[i] & COUPLING_ONE_SIDED) != 0;
   joint_axis rigid{};
