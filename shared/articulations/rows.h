@@ -26,8 +26,6 @@ SHARED joint_axis axis_of_rows(const articulation *t, tree_link l)
   return a;
 }
 
-/* Beyond this, in m or rad, m/s or rad/s, nothing is a limit. */
-#define UNLIMITED R(1e18)
 /* rad/s and m/s. A stop is in reach if the joint gets there in the substep with twice its speed and this much more. */
 #define STOP_REACH R(20.0)
 

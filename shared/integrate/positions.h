@@ -57,6 +57,30 @@ SHARED quat turned_about_z(quat q, real angle)
 /* The angular momentum in the body's axes. */
 SHARED vec3 momentum_in_body(quat q, vec3 momentum) { return rotate_back(rotation_of(q), momentum); }
 
+/* The orientation rotated within a time about each of the body's axes alone. Of a symmetric body one of these rotations
+ * is there, and most bodies are symmetric: rates of 0 cost nothing. */
+SHARED quat spun_about_x(quat q, real rate, vec3 momentum)
+{
+  mask spins = rate != R(0.0);
+  if (!any_of(spins)) return q;
+  quat spun = turned_about_x(q, rate * momentum_in_body(q, momentum).x);
+  return quat_from(choose4(spins, quat_to_vec4(spun), quat_to_vec4(q)));
+}
+SHARED quat spun_about_y(quat q, real rate, vec3 momentum)
+{
+  mask spins = rate != R(0.0);
+  if (!any_of(spins)) return q;
+  quat spun = turned_about_y(q, rate * momentum_in_body(q, momentum).y);
+  return quat_from(choose4(spins, quat_to_vec4(spun), quat_to_vec4(q)));
+}
+SHARED quat spun_about_z(quat q, real rate, vec3 momentum)
+{
+  mask spins = rate != R(0.0);
+  if (!any_of(spins)) return q;
+  quat spun = turned_about_z(q, rate * momentum_in_body(q, momentum).z);
+  return quat_from(choose4(spins, quat_to_vec4(spun), quat_to_vec4(q)));
+}
+
 SHARED spin turn_freely(quat q, vec3 angular, vec3 inverse_moments, real h)
 {
   mask finite = (inverse_moments.x > R(0.0)) & (inverse_moments.y > R(0.0)) & (inverse_moments.z > R(0.0));
@@ -67,11 +91,11 @@ SHARED spin turn_freely(quat q, vec3 angular, vec3 inverse_moments, real h)
   real middle = middle_of(inverse);
   vec3 rate = scale(make_vec3(inverse.x - middle, inverse.y - middle, inverse.z - middle), h);
 
-  quat turning = turned_about_x(q, R(0.5) * rate.x * momentum_in_body(q, momentum).x);
-  turning = turned_about_y(turning, R(0.5) * rate.y * momentum_in_body(turning, momentum).y);
-  turning = turned_about_z(turning, rate.z * momentum_in_body(turning, momentum).z);
-  turning = turned_about_y(turning, R(0.5) * rate.y * momentum_in_body(turning, momentum).y);
-  turning = turned_about_x(turning, R(0.5) * rate.x * momentum_in_body(turning, momentum).x);
+  quat turning = spun_about_x(q, R(0.5) * rate.x, momentum);
+  turning = spun_about_y(turning, R(0.5) * rate.y, momentum);
+  turning = spun_about_z(turning, rate.z, momentum);
+  turning = spun_about_y(turning, R(0.5) * rate.y, momentum);
+  turning = spun_about_x(turning, R(0.5) * rate.x, momentum);
 
   spin s;
   s.orientation = turned(turning, scale(momentum, middle * h));

@@ -23,6 +23,8 @@
 #define LEAST_LEAK R(0.2) /* the share of the leak that is left where closing is limited (soft_rows_of) */
 
 #define HALF_TURN R(3.14159265)
+/* Beyond this, in m or rad, m/s or rad/s, nothing is a limit. */
+#define UNLIMITED R(1e18)
 
 /* The row of an axis. */
 typedef struct {
@@ -98,13 +100,14 @@ SHARED real spring_change(GLOBAL const Parameters *parameters, const axis_row *r
   return choose(acts, change, (real)R(0.0));
 }
 
-/* Takes the new impulse of a row, and adds its change to the speed and to the sum of all rows. */
-SHARED real take_impulse(axis_row *r, real old, real impulse, real *sum)
+/* Takes the new impulse of a row, if it is there, and adds its change to the speed and to the sum of all rows. A row
+ * that is not there must not add 0, which would turn -0 into +0. */
+SHARED real take_impulse_if(mask wanted, axis_row *r, real old, real impulse, real *sum)
 {
   real change = impulse - old;
-  r->speed = r->speed + r->response * change;
-  *sum = *sum + change;
-  return impulse;
+  r->speed = choose(wanted, r->speed + r->response * change, r->speed);
+  *sum = choose(wanted, *sum + change, *sum);
+  return choose(wanted, impulse, old);
 }
 
 /* An angle that differs from a target by more than half a turn is nearer to it the other way round. */
@@ -114,22 +117,35 @@ SHARED real distance_from(real value, real target, mask turns)
   return choose(turns, apart - R(2.0) * HALF_TURN * nearest_integer(apart / (R(2.0) * HALF_TURN)), apart);
 }
 
+/* old: the impulse that the drive has, of an axis that may have lost it. */
+SHARED mask has_drive(const joint_axis *axis, real old)
+{
+  return (axis->stiffness != R(0.0)) | (axis->damping != R(0.0)) | (old != R(0.0));
+}
+SHARED mask has_limits(const joint_axis *axis, real old)
+{
+  return (axis->lower > -UNLIMITED) | (axis->upper < UNLIMITED) | (old != R(0.0));
+}
+
 SHARED real solve_drive(GLOBAL const Parameters *parameters, axis_row *r, const joint_axis *axis, real start, real old,
                         real *sum)
 {
+  mask wanted = has_drive(axis, old);
+  if (!any_of(wanted)) return old;
   real open = distance_from(start, axis->target, is_rotation(axis->kind)),
        limit = axis->largest_force * parameters->substep;
   mask rigid = axis->damping < R(0.0);
   real change =
       spring_change(parameters, r, axis->stiffness, maximum(axis->damping, R(0.0)), open, axis->target_speed, old);
   change = choose(rigid, r->mass * (axis->target_speed - r->speed), change);
-  return take_impulse(r, old, clamped(old + change, -limit, limit), sum);
+  return take_impulse_if(wanted, r, old, clamped(old + change, -limit, limit), sum);
 }
 
 SHARED real solve_axis_friction(GLOBAL const Parameters *parameters, axis_row *r, real friction, real old, real *sum)
 {
+  mask wanted = (friction > R(0.0)) | (old != R(0.0));
   real limit = friction * parameters->substep;
-  return take_impulse(r, old, clamped(old - r->mass * r->speed, -limit, limit), sum);
+  return take_impulse_if(wanted, r, old, clamped(old - r->mass * r->speed, -limit, limit), sum);
 }
 
 /* The share of a closing speed that is not too fast. */
@@ -203,6 +219,9 @@ SHARED real solve_stop(GLOBAL const Parameters *parameters, axis_row *r, const j
 SHARED real solve_limits(GLOBAL const Parameters *parameters, axis_row *r, const joint_axis *axis, real old, uint pass,
                          real *sum)
 {
+  mask wanted = has_limits(axis, old);
+  if (!any_of(wanted)) return old;
+  real speed_before = r->speed;
   real value = value_near_range(r, axis);
   mask held = axis->lower == axis->upper, never = held & !held;
   real lower = choose(held, old, maximum(old, R(0.0))), upper = choose(held, (real)R(0.0), maximum(-old, R(0.0)));
@@ -211,18 +230,19 @@ SHARED real solve_limits(GLOBAL const Parameters *parameters, axis_row *r, const
   opposite.speed = -r->speed;
   real from_upper = solve_stop(parameters, &opposite, axis, axis->upper - value, never, upper, pass);
   from_upper = choose(held, (real)R(0.0), from_upper);
-  r->speed = r->speed - r->response * (from_upper - upper);
   real impulse = lower - from_upper;
-  *sum = *sum + (impulse - old);
-  return impulse;
+  r->speed = choose(wanted, r->speed - r->response * (from_upper - upper), speed_before);
+  *sum = choose(wanted, *sum + (impulse - old), *sum);
+  return choose(wanted, impulse, old);
 }
 
 /* What is too fast is braked, by an impulse that no pass keeps. */
 SHARED void limit_speed(axis_row *r, real largest, real *sum)
 {
+  mask is_fast = magnitude(r->speed) > largest;
   real change = r->mass * (clamped(r->speed, -largest, largest) - r->speed);
-  r->speed = r->speed + r->response * change;
-  *sum = *sum + change;
+  r->speed = choose(is_fast, r->speed + r->response * change, r->speed);
+  *sum = choose(is_fast, *sum + change, *sum);
 }
 
 SHARED joint apply_along(joint j, const axis_row *r, real impulse)

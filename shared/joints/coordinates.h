@@ -120,13 +120,14 @@ SHARED joint_coordinate rotation_coordinate(joint_frames f, uint_lanes kind)
   vec3 none = make_vec3(R(0.0), R(0.0), R(0.0));
   vec3 twist = twist_axis(s.x_of_b), cone = cone_axis(s, across);
   real share = R(1.0) / (R(1.0) + s.swing_w), y = s.swing_y * share, z = s.swing_z * share;
-  joint_coordinate c = {twist_of(f.relative), none, twist};
+  joint_coordinate c = {R(0.0), none, twist};
   mask is_y = kind == (uint_lanes)(uint)JOINT_AXIS_SWING_Y, is_z = kind == (uint_lanes)(uint)JOINT_AXIS_SWING_Z,
-       is_cone = kind == (uint_lanes)(uint)JOINT_AXIS_CONE, is_around = kind == (uint_lanes)(uint)JOINT_AXIS_AROUND;
-  c.value = choose(is_y, R(4.0) * arc_tangent(s.swing_y, R(1.0) + s.swing_w), c.value);
-  c.value = choose(is_z, R(4.0) * arc_tangent(s.swing_z, R(1.0) + s.swing_w), c.value);
-  c.value = choose(is_cone, R(2.0) * arc_tangent(across, s.swing_w), c.value);
-  c.value = zero_if(is_around, c.value);
+       is_cone = kind == (uint_lanes)(uint)JOINT_AXIS_CONE, is_around = kind == (uint_lanes)(uint)JOINT_AXIS_AROUND,
+       is_twist = kind == (uint_lanes)(uint)JOINT_AXIS_TWIST;
+  if (any_of(is_twist)) c.value = choose(is_twist, twist_of(f.relative), c.value);
+  if (any_of(is_y)) c.value = choose(is_y, R(4.0) * arc_tangent(s.swing_y, R(1.0) + s.swing_w), c.value);
+  if (any_of(is_z)) c.value = choose(is_z, R(4.0) * arc_tangent(s.swing_z, R(1.0) + s.swing_w), c.value);
+  if (any_of(is_cone)) c.value = choose(is_cone, R(2.0) * arc_tangent(across, s.swing_w), c.value);
   c.turn = choose3(is_y, swing_y_axis(y, z, twist), c.turn);
   c.turn = choose3(is_z, swing_z_axis(y, z, twist), c.turn);
   c.turn = choose3(is_cone, cone, c.turn);
