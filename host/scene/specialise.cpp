@@ -156,7 +156,8 @@ Features list_features(Features features)
 /* A ball touches a shape with a test of its own at one point. */
 Features point_features(Features pairs)
 {
-  constexpr Features of_balls = FEATURE_SPHERE_SPHERE | FEATURE_SPHERE_BOX | FEATURE_SPHERE_HALF_SPACE;
+  constexpr Features of_balls =
+      FEATURE_SPHERE_SPHERE | FEATURE_SPHERE_BOX | FEATURE_SPHERE_CAPSULE | FEATURE_SPHERE_HALF_SPACE;
   return (pairs & ~of_balls) != 0 ? FEATURE_SEVERAL_POINTS : 0;
 }
 
@@ -295,8 +296,10 @@ bool is_general(const Scene &scene, const Body &body)
 
 uint32_t shape_code(const Scene &scene, const Body &body)
 {
-  const auto code = static_cast<uint32_t>(scene.shapes[body.shape].type);
-  const bool plain = !is_posed(body) && (!body.continuous || code == SHAPE_HALF_SPACE);
+  const Shape &shape = scene.shapes[body.shape];
+  const auto code = static_cast<uint32_t>(shape.type);
+  const bool placed = code == SHAPE_CAPSULE ? shape.size[0] == shape.size[2] : !is_posed(body);
+  const bool plain = placed && (!body.continuous || code == SHAPE_HALF_SPACE);
   return plain && has_test_of_its_own(code) ? code : uint32_t{SHAPE_OTHER};
 }
 

@@ -62,12 +62,13 @@ Features all_features();
 /* The median of bounding_radius over the bodies of finite size; 0 if there are none. */
 float median_radius(const Scene &scene);
 
-/* True for a shape that has a pose in its body and goes through the general tests: it is neither sphere, box nor
- * half-space, or not centred in its body, or has continuous collision. */
+/* True for a shape that has a pose in its body: it is neither sphere, box nor half-space, or not centred in it, or
+ * has continuous collision. */
 bool is_general(const Scene &scene, const Body &body);
 
 /* The shape code in body_flags. It is SHAPE_OTHER unless a row of shared/pairs.def names the shape, the shape is
- * centred in its body, and the body has no continuous collision. */
+ * centred in its body, and the body has no continuous collision. A capsule may have any place, but its ends must have
+ * one radius. */
 uint32_t shape_code(const Scene &scene, const Body &body);
 
 /* The filter of a body or a child; see Body in scene.h. */

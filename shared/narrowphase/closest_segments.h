@@ -1,4 +1,4 @@
-/* closest_segments.h - the closest points of two cores that are segments or points, those of capsules and spheres.
+/* closest_segments.h - the closest points of two segments, which may be points: the cores of capsules and spheres.
  *
  *       s = -1 o-------x--------o s = 1         The points x = middle_a + s half_a and y = middle_b + t half_b are
  *                      |                        closest where neither moves along its own segment. Each is clamped to
@@ -11,41 +11,37 @@
 #ifndef TANDEM_SHARED_NARROWPHASE_CLOSEST_SEGMENTS_H
 #define TANDEM_SHARED_NARROWPHASE_CLOSEST_SEGMENTS_H
 
-#include "shared/narrowphase/convex.h"
-
-/* A tapered capsule has another core. */
-SHARED mask has_segment(const convex *shape)
-{
-  return shape->kind == (uint)SHAPE_SPHERE || (is_capsule(shape) && shape->size.x == shape->size.z);
-}
-
-/* Half of the segment, from its middle to the end at the top; 0 for a sphere. */
-SHARED vec3 half_segment(const convex *shape)
-{
-  return from_shape_axes(shape, make_vec3(R(0.0), is_capsule(shape) ? shape->size.y : R(0.0), R(0.0)));
-}
+#include "shared/math.h"
 
 /* Where on a segment of this squared half length: -1 to 1. */
 SHARED real place_on_segment(real along, real squared)
 {
-  return squared > R(0.0) ? clamped(along / squared, R(-1.0), R(1.0)) : R(0.0);
+  mask long_enough = squared > R(0.0);
+  return choose(long_enough, clamped(along / choose(long_enough, squared, (real)R(1.0)), R(-1.0), R(1.0)),
+                (real)R(0.0));
 }
 
 typedef struct {
   vec3 on_a, on_b;
+  real place_a, place_b; /* where on the segments: -1 to 1 */
 } segment_points;
 
+/* The square of the sine of the angle from which two segments have one pair of closest points. */
+#define SEGMENTS_CROSS R(1e-9)
+
+/* half_a, half_b: from the middle to the end at 1. By vector products, because differences of products of lengths would
+ * lose the small angles of long segments to rounding. */
 SHARED segment_points closest_of_segments(vec3 middle_a, vec3 half_a, vec3 middle_b, vec3 half_b)
 {
-  vec3 between = subtract(middle_b, middle_a);
+  vec3 between = subtract(middle_b, middle_a), across = cross3(half_a, half_b);
   real aa = length_squared(half_a), bb = length_squared(half_b), ab = dot3(half_a, half_b);
-  real along_a = dot3(half_a, between), along_b = dot3(half_b, between);
-  real determinant = aa * bb - ab * ab;
-  mask crossing = determinant > R(64.0) * ROUNDING * aa * bb;
-  real s = crossing ? clamped((bb * along_a - ab * along_b) / determinant, R(-1.0), R(1.0)) : R(0.0);
+  real along_a = dot3(half_a, between), along_b = dot3(half_b, between), area = length_squared(across);
+  mask crossing = area > SEGMENTS_CROSS * aa * bb;
+  real crossed = dot3(across, cross3(between, half_b)) / choose(crossing, area, (real)R(1.0));
+  real s = choose(crossing, clamped(crossed, R(-1.0), R(1.0)), (real)R(0.0));
   real t = place_on_segment(ab * s - along_b, bb);
   s = place_on_segment(ab * t + along_a, aa);
-  segment_points p = {add_scaled(middle_a, half_a, s), add_scaled(middle_b, half_b, t)};
+  segment_points p = {add_scaled(middle_a, half_a, s), add_scaled(middle_b, half_b, t), s, t};
   return p;
 }
 

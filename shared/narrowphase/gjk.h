@@ -296,6 +296,18 @@ SHARED mask walk_round(const convex *a, const convex *b, gap_wanted wanted, int 
          (verdict == SIMPLEX_IS_SLIVER && restart_walk(walk, s, &result->contact, round, size));
 }
 
+/* A tapered capsule has another core. */
+SHARED mask has_segment(const convex *shape)
+{
+  return shape->kind == (uint)SHAPE_SPHERE || (is_capsule(shape) && shape->size.x == shape->size.z);
+}
+
+/* Half of the segment, from its middle to the end at the top; 0 for a sphere. */
+SHARED vec3 half_segment(const convex *shape)
+{
+  return from_shape_axes(shape, make_vec3(R(0.0), is_capsule(shape) ? shape->size.y : R(0.0), R(0.0)));
+}
+
 /* The closest points of two segments; false if these are too near each other for a normal between them, or if rounding
  * has moved them along nearly parallel segments. */
 SHARED mask closest_points_of_segments(const convex *a, const convex *b, gjk_result *result)

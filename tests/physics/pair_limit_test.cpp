@@ -169,7 +169,7 @@ TEST_CASE("a limit of pairs that makes no sense is refused")
 TEST_CASE("tables past what kernels can number are refused by name before they are made")
 {
   Sizes sizes;
-  sizes.features = 0xffffffffu;
+  sizes.features = ~Features{0};
   sizes.hulls.links = 5461u * 12u * 65536ull;
   CHECK_NOTHROW(check_size(Buffer::hull_link, sizes));
   sizes.hulls.links = 5462u * 12u * 65536ull;

@@ -69,8 +69,8 @@ Shape hull32(Random &random)
 }
 Shape any_convex(Random &random)
 {
-  const Maker makers[] = {capsule, cylinder, hull32};
-  return makers[random.below(3)](random);
+  const Maker makers[] = {cylinder, hull32};
+  return makers[random.below(2)](random);
 }
 
 struct PairKind {
@@ -90,7 +90,10 @@ std::vector<PairKind> kinds()
   return {{"sphere-sphere", ball, ball, PAIR_KIND_SPHERE_SPHERE, own},
           {"sphere-box", ball, box, PAIR_KIND_SPHERE_BOX, own},
           {"box-box", box, box, PAIR_KIND_BOX_BOX, own},
-          {"capsule-capsule", capsule, capsule, PAIR_KIND_CONVEX_CONVEX, round},
+          {"sphere-capsule", ball, capsule, PAIR_KIND_SPHERE_CAPSULE, own},
+          {"capsule-capsule", capsule, capsule, PAIR_KIND_CAPSULE_CAPSULE, own},
+          {"capsule-half-space", capsule, {}, PAIR_KIND_CAPSULE_HALF_SPACE, own},
+          {"capsule-box", capsule, box, PAIR_KIND_CONVEX_CONVEX, round},
           {"cylinder-box", cylinder, box, PAIR_KIND_CONVEX_CONVEX, round},
           {"hull32-box", hull32, box, PAIR_KIND_CONVEX_CONVEX, all},
           {"hull32-hull32", hull32, hull32, PAIR_KIND_CONVEX_CONVEX, hulls},

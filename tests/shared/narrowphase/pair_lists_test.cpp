@@ -50,7 +50,9 @@ uint32_t kind_by_hand(uint32_t a, uint32_t b)
   if (a > b) std::swap(a, b);
   if (a == SHAPE_HALF_SPACE && b == SHAPE_HALF_SPACE) return PAIR_KIND_NONE;
   if (b == SHAPE_HALF_SPACE) return a == SHAPE_SPHERE ? PAIR_KIND_SPHERE_HALF_SPACE : PAIR_KIND_BOX_HALF_SPACE;
-  if (a == SHAPE_HALF_SPACE) return PAIR_KIND_CONVEX_HALF_SPACE;
+  if (a == SHAPE_HALF_SPACE) return b == SHAPE_CAPSULE ? PAIR_KIND_CAPSULE_HALF_SPACE : PAIR_KIND_CONVEX_HALF_SPACE;
+  if (b == SHAPE_CAPSULE && a == SHAPE_SPHERE) return PAIR_KIND_SPHERE_CAPSULE;
+  if (b == SHAPE_CAPSULE && a == SHAPE_CAPSULE) return PAIR_KIND_CAPSULE_CAPSULE;
   if (b > SHAPE_HALF_SPACE) return PAIR_KIND_CONVEX_CONVEX;
   return b == SHAPE_SPHERE ? PAIR_KIND_SPHERE_SPHERE : a == SHAPE_BOX ? PAIR_KIND_BOX_BOX : PAIR_KIND_SPHERE_BOX;
 }
@@ -114,7 +116,9 @@ struct NamedShape {
   uint32_t code;
 };
 constexpr NamedShape shapes[] = {
-    {"sphere", SHAPE_SPHERE}, {"box", SHAPE_BOX}, {"half-space", SHAPE_HALF_SPACE}, {"convex", SHAPE_OTHER}};
+    {"sphere", SHAPE_SPHERE},         {"box", SHAPE_BOX},      {"capsule", SHAPE_CAPSULE},
+    {"half-space", SHAPE_HALF_SPACE}, {"convex", SHAPE_OTHER},
+};
 
 /* A row of the matrix on its page: below the diagonal nothing, since either body may be a. */
 std::string row_of_matrix(size_t first)
@@ -134,7 +138,7 @@ std::string row_of_matrix(size_t first)
 TEST_CASE("pair lists: each pair once, in the list of its kind, in order", "[sanitizer]")
 {
   const uint32_t count = GENERATE(0u, 1u, 2u, TILE - 1, TILE, TILE + 1, 3 * TILE + 7, 40000u);
-  const std::vector<uint32_t> all = {SHAPE_SPHERE, SHAPE_BOX, SHAPE_HALF_SPACE, SHAPE_OTHER};
+  const std::vector<uint32_t> all = {SHAPE_SPHERE, SHAPE_BOX, SHAPE_CAPSULE, SHAPE_HALF_SPACE, SHAPE_OTHER};
   for (const std::vector<uint32_t> &some :
        std::vector<std::vector<uint32_t>>{all, {SHAPE_BOX}, {SHAPE_BOX, SHAPE_OTHER}, {SHAPE_HALF_SPACE}}) {
     const Pairs pairs = random_pairs(count, some, count + some.size());
@@ -152,7 +156,8 @@ TEST_CASE("pair lists: the same on OpenCL")
 {
   parity::require_pocl();
   for (const uint32_t count : {0u, 1u, TILE, 3 * TILE + 7}) {
-    const Pairs pairs = random_pairs(count, {SHAPE_SPHERE, SHAPE_BOX, SHAPE_HALF_SPACE, SHAPE_OTHER}, count);
+    const Pairs pairs =
+        random_pairs(count, {SHAPE_SPHERE, SHAPE_BOX, SHAPE_CAPSULE, SHAPE_HALF_SPACE, SHAPE_OTHER}, count);
     CHECK((pairs_on_backend("cl:pocl", pairs) == pairs_by_hand(pairs)));
   }
 }
@@ -218,6 +223,35 @@ TEST_CASE("pair kinds: a scene has the kernel of every pair that it makes")
     if (scene.bodies.size() == 4) CHECK(count == 3);
   }
   CHECK(met > 1000);
+}
+
+TEST_CASE("pair kinds: capsules have tests of their own but for those with two radii or continuous collision")
+{
+  const auto launches_general_test = [](const Shape &shape, bool continuous) {
+    Scene scene;
+    scene.shapes = {shape, half_space_shape()};
+    for (uint32_t k = 0; k < 3; ++k) {
+      Body body;
+      body.shape = k == 2;
+      body.type = k == 2 ? BodyType::fixed : BodyType::dynamic;
+      body.continuous = k < 2 && continuous;
+      body.position = {0.3 * k, k == 2 ? -1.0 : 0.0, 0};
+      body.shape_position = {0.1f, 0, 0.2f};
+      if (k == 2) body.shape_position = {0, 0, 0};
+      body.shape_orientation = k == 2 ? Quat{0, 0, 0, 1} : Quat{0, 0.6f, 0, 0.8f};
+      scene.bodies.push_back(body);
+    }
+    const std::vector<Kernel> kernels = World(scene, Settings{}, Placement{"serial", {}, false}).kernels();
+    const auto launches = [&](Kernel kernel) { return std::count(kernels.begin(), kernels.end(), kernel) > 0; };
+    CHECK(launches(Kernel::collide_convex) != launches(Kernel::collide_capsule_capsule));
+    CHECK(launches(Kernel::collide_convex_half_space) != launches(Kernel::collide_capsule_half_space));
+    return launches(Kernel::collide_convex);
+  };
+  Shape tapered = capsule_shape(0.2f, 0.5f);
+  tapered.size[2] = 0.3f;
+  CHECK_FALSE(launches_general_test(capsule_shape(0.2f, 0.5f), false));
+  CHECK(launches_general_test(capsule_shape(0.2f, 0.5f), true));
+  CHECK(launches_general_test(tapered, false));
 }
 
 TEST_CASE("pair kinds: the matrix on its page is that of pairs.def")

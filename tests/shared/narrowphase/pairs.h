@@ -21,22 +21,40 @@ namespace tandem::narrowphase_tests {
 
 using Vector = Eigen::Vector3d;
 
-enum Shape : uint32_t { sphere = 0, box = 1, half_space = 2 };
+enum Shape : uint32_t { sphere = 0, box = 1, half_space = 2, capsule = 3 };
 
 /* Values are kept in float, as the kernels read them, so that both sides of a comparison start from the same
  * numbers. */
 struct TestBody {
   Shape shape = box;
-  Eigen::Vector3f size{1, 1, 1};
+  Eigen::Vector3f size{1, 1, 1}; /* of a capsule: its radius, half the distance of the ends, its radius again */
   Eigen::Vector3f position{0, 0, 0};
   Eigen::Quaternionf orientation{1, 0, 0, 0};
   Eigen::Vector3f linear{0, 0, 0}, angular{0, 0, 0};
+  Eigen::Vector3f shape_position{0, 0, 0}; /* of a capsule in its body */
+  Eigen::Quaternionf shape_orientation{1, 0, 0, 0};
 
   Vector center() const { return position.cast<double>(); }
   Vector extent() const { return size.cast<double>(); }
   Eigen::Matrix3d axes() const { return orientation.cast<double>().normalized().toRotationMatrix(); }
-  float bounding_radius() const { return shape == sphere ? size.x() : shape == box ? size.norm() : 0.0f; }
+  float bounding_radius() const
+  {
+    if (shape == capsule) return shape_position.norm() + size.x() + size.y();
+    return shape == sphere ? size.x() : shape == box ? size.norm() : 0.0f;
+  }
 };
+
+/* Where a body is after a time, if nothing changes its velocities. */
+inline TestBody moved(TestBody body, double time)
+{
+  const double turn = body.angular.cast<double>().norm() * time;
+  body.position += (time * body.linear.cast<double>()).cast<float>();
+  if (turn > 0)
+    body.orientation = (Eigen::Quaterniond(Eigen::AngleAxisd(turn, body.angular.cast<double>().normalized())) *
+                        body.orientation.cast<double>())
+                           .cast<float>();
+  return body;
+}
 
 struct Point {
   Vector offset;
@@ -176,6 +194,10 @@ private:
     flags_.push_back(body.shape | 2u << 3 | 7u << 8);
     positions_.push_back(to_row(body.position, 0));
     positions_.push_back({0, 0, 0, 0});
+    poses_.push_back(to_row(body.shape_position, 0));
+    poses_.push_back({body.shape_orientation.x(), body.shape_orientation.y(), body.shape_orientation.z(),
+                      body.shape_orientation.w()});
+    poses_.insert(poses_.end(), 2, {0, 0, 0, 0}); /* a box around the shape, for other stages */
     orientations_.push_back({body.orientation.x(), body.orientation.y(), body.orientation.z(), body.orientation.w()});
     velocities_.push_back(to_row(body.linear, 1));
     velocities_.push_back(to_row(body.angular, 0));
@@ -190,6 +212,7 @@ private:
     case Buffer::pair_of_kind: return of_kind_.data();
     case Buffer::body_flags: return flags_.data();
     case Buffer::body_shape: return shapes_.data();
+    case Buffer::body_shape_pose: return poses_.data();
     case Buffer::body_position: return positions_.data();
     case Buffer::body_orientation: return orientations_.data();
     case Buffer::body_velocity: return velocities_.data();
@@ -205,7 +228,7 @@ private:
   }
 
   std::vector<TestBody> bodies_;
-  std::vector<float4> shapes_, positions_, orientations_, velocities_;
+  std::vector<float4> shapes_, poses_, positions_, orientations_, velocities_;
   std::vector<uint32_t> flags_, pair_a_, pair_b_, of_kind_, counts_;
 };
 

@@ -42,17 +42,6 @@ double reach(const PairScene &scene, size_t pair, const Vector &normal)
   return scene.parameters.speculative_distance + scene.parameters.step * std::max(0.0, closing);
 }
 
-TestBody moved(TestBody body, double time)
-{
-  const double turn = body.angular.cast<double>().norm() * time;
-  body.position += (time * body.linear.cast<double>()).cast<float>();
-  if (turn > 0)
-    body.orientation = (Eigen::Quaterniond(Eigen::AngleAxisd(turn, body.angular.cast<double>().normalized())) *
-                        body.orientation.cast<double>())
-                           .cast<float>();
-  return body;
-}
-
 /* The least separation of many moments before `time`. */
 template <class Reference> double least_before(const TestBody &a, const TestBody &b, double time, Reference reference)
 {

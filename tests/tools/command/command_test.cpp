@@ -591,7 +591,7 @@ TEST_CASE("command: bench narrowphase", "[command]")
     CHECK(row["points"] >= 90);
     CHECK(row["ms"]["median"].get<double>() > 0);
   }
-  CHECK(kinds.size() == 8);
+  CHECK(kinds.size() == 11);
   const Json two = json_of("bench narrowphase --n 30 --on serial --pairs box-box,sphere-sphere");
   REQUIRE(two["pairs"].size() == 2);
   CHECK(two["pairs"][0]["pair"] == "sphere-sphere");
