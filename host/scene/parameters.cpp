@@ -58,7 +58,7 @@ float length_of(const Vec3 &v)
 SoftContact joint_softness(const Settings &settings, double h)
 {
   if (settings.solver == Solver::xpbd) return {round_to_float(1 / h), 1, 0};
-  return soft_contact(std::min<double>(settings.joint_hertz, 0.25 / h), settings.joint_damping_ratio, h);
+  return soft_contact(joint_hertz_of(settings), settings.joint_damping_ratio, h);
 }
 
 } // namespace

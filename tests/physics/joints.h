@@ -108,7 +108,7 @@ struct Softness {
   double open;          /* m at a load of 1 m/s^2 that turns, of which each substep leaves half a square */
   explicit Softness(const Settings &settings)
   {
-    const double h = substep_of(settings), w = 2 * pi * std::min(double(settings.joint_hertz), 0.25 / h);
+    const double h = substep_of(settings), w = 2 * pi * joint_hertz_of(settings);
     rate = w / (2 * settings.joint_damping_ratio + h * w);
     stretch = 1 / (w * w);
     open = stretch + 0.5 * h / rate;

@@ -92,7 +92,7 @@ SceneOptions::SceneOptions(CLI::App &parser, bool one_backend) : one_backend_(on
          "substeps of a step, or auto: as many as loads and stacks need; what the solver wants if not given", "N");
   option("--iterations", iterations_, "solver passes of a substep; what the solver wants if not given", "N");
   option("--joint-hertz", joint_hertz_,
-         "frequency of soft joints; at most a quarter of the substep rate is used; 60 if not given", "HZ");
+         "frequency of soft joints; at most 0.28 of the substep rate is used; 60 if not given", "HZ");
   option("--solver", solver_, one_of("solver", choice_names<Solver>()), "NAME");
   option("--broadphase", broadphase_,
          one_of("broadphase", choice_names<Broadphase>()) + "; auto: as the scene suggests (`tandem plan` says why)",

@@ -133,7 +133,7 @@ Trial apart_trial(Length length)
   }
   let_pass(scene);
   Trial trial = trial_of(std::move(scene), steps_for(length, 600, 600));
-  trial.documented = with_stiff_joints(8);
+  trial.documented = with_stiff_joints(16);
   trial.checks.push_back(check("fastest", "m/s", 10, speed()));
   trial.checks.push_back(at_end(check("farthest open joint at the end", "m", 0.001, joint_opening())));
   trial.checks.push_back(at_end(check("farthest turned joint at the end", "rad", 0.1 * one_degree, joint_angle())));

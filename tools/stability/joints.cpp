@@ -82,7 +82,7 @@ Settings with_stiff_joints(uint32_t substeps)
 JointSoftness::JointSoftness(const Settings &settings)
 {
   const double h = double(settings.step) / settings.substeps,
-               w = 2 * pi * std::min(double(settings.joint_hertz), 0.25 / h),
+               w = 2 * pi * joint_hertz_of(settings),
                rate = w / (2 * double(settings.joint_damping_ratio) + h * w);
   stretch = 1 / (w * w);
   open = stretch + 0.5 * h / rate;

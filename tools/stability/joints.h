@@ -22,7 +22,7 @@ Joint &connect(Scene &scene, JointType type, uint32_t a, uint32_t b, const Vecto
 /* Bodies that collide with nothing, for cases of joints alone. */
 void let_pass(Scene &scene);
 
-/* The stiffest joints that a substep allows are a quarter of the substep rate; contacts are as with_substeps has them.
+/* Joints of a quarter of the substep rate; contacts are as with_substeps has them.
  * A load M on m opens a joint by about (M / m) g / (2 pi joint_hertz)^2, so it falls as the square of the substeps. */
 Settings with_stiff_joints(uint32_t substeps);
 

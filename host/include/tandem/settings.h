@@ -2,6 +2,7 @@
  * it once, when it is made; <tandem/backend.h> says where its kernels run. */
 #pragma once
 
+#include <algorithm>
 #include <concepts>
 #include <cstdint>
 #include <string>
@@ -87,8 +88,8 @@ struct Settings {
 
   float contact_hertz = 60.0f;         /* Hz, frequency of soft contacts; at most a fifth of the substep rate is used */
   float contact_damping_ratio = 10.0f; /* overdamped, so that the removal of penetration adds no bounce */
-  float joint_hertz = 60.0f;           /* Hz, frequency of soft joints; at most a quarter of the substep rate is used;
-                                          without meaning for xpbd */
+  float joint_hertz = 60.0f;           /* Hz, frequency of soft joints; used up to joint_hertz_of(); without meaning
+                                          for xpbd */
   float joint_damping_ratio = 2.0f;
   float push_speed = 3.0f;             /* m/s, the largest speed at which penetration is removed */
   float slop = 0.005f;                 /* m, penetration left in place so that contacts persist */
@@ -96,6 +97,13 @@ struct Settings {
   float restitution_speed = 1.0f;      /* m/s, slower impacts have no restitution */
   float hit_speed = 1.0f;              /* m/s, >= 0: contacts that begin slower are no hits (World::hit_events) */
 };
+
+/* The frequency that soft joints have, Hz: at most 0.28 of the substep rate, because some trees of links tremble from
+ * 0.3 on. The substeps must be a number. */
+inline double joint_hertz_of(const Settings &settings)
+{
+  return std::min<double>(settings.joint_hertz, 0.28 * settings.substeps / static_cast<double>(settings.step));
+}
 
 /* The defaults with the substeps and iterations that suit this solver. */
 TANDEM_API Settings settings_for(Solver solver);
