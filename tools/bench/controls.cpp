@@ -12,6 +12,7 @@
 
 #include "host/base/random.h"
 #include "host/catalog/catalog.h"
+#include "host/runtime/interface/kernel_list.h"
 #include "tools/command/measure.h"
 #include "tools/command/progress.h"
 #include "tools/command/scene_options.h"
@@ -22,15 +23,18 @@ namespace {
 constexpr const char *robot_unless_given = "humanoid";
 constexpr uint32_t worlds_unless_given = 1024, turns = 4, steps_of_turn = 50;
 constexpr uint64_t untimed_steps = uint64_t{turns} * steps_of_turn, steps_unless_given = untimed_steps;
+constexpr uint64_t profiled_steps = 20; /* after those that are timed, because measuring kernels slows launches */
+constexpr size_t most_kernels_of_text = 8;
 constexpr float control_step = 0.005f; /* s, as learners of walking take it */
 constexpr float largest_force = 40;    /* N m, or N, of axes without actuators */
 
 struct ControlsTime {
   std::string scene;
   uint32_t worlds = 0;
-  size_t controls = 0;      /* of each world */
-  double set = 0, step = 0; /* ms for all worlds, on average over the steps */
-  double contacts = 0;      /* points of a world, at the end */
+  size_t controls = 0;             /* of each world */
+  double set = 0, step = 0;        /* ms for all worlds, on average over the steps */
+  double contacts = 0;             /* points of a world, at the end */
+  std::vector<KernelTime> kernels; /* of the profiled steps, the longest first */
 };
 
 /* Forces on hinges and sliders, which have one axis each. */
@@ -96,6 +100,7 @@ public:
     time.set /= static_cast<double>(steps);
     time.step /= static_cast<double>(steps);
     time.contacts = static_cast<double>(worlds_.statistics().contacts) / worlds_.count();
+    time.kernels = profiled(untimed_steps + steps);
     return time;
   }
 
@@ -123,6 +128,18 @@ private:
     time.set += milliseconds_from(before, between);
     time.step += milliseconds_from(between, Clock::now());
   }
+  std::vector<KernelTime> profiled(uint64_t first_step)
+  {
+    ControlsTime untold;
+    worlds_.set_profiling(true);
+    worlds_.take_kernel_times();
+    for (uint64_t step = first_step; step < first_step + profiled_steps; ++step) advance(step, untold);
+    std::vector<KernelTime> kernels = worlds_.take_kernel_times();
+    worlds_.set_profiling(false);
+    std::sort(kernels.begin(), kernels.end(),
+              [](const KernelTime &a, const KernelTime &b) { return a.milliseconds > b.milliseconds; });
+    return kernels;
+  }
   void begin_anew(uint64_t turn)
   {
     std::vector<uint32_t> numbers;
@@ -141,13 +158,35 @@ double driven_steps_a_second(const ControlsTime &time)
   return 1e3 * time.worlds / std::max(time.set + time.step, 1e-9);
 }
 
+double milliseconds_of_step(const KernelTime &kernel) { return kernel.milliseconds / profiled_steps; }
+
+std::string text_of_kernels(const std::vector<KernelTime> &kernels)
+{
+  std::string text = "  ms of a step in kernels:";
+  for (size_t k = 0; k < std::min(kernels.size(), most_kernels_of_text); ++k)
+    text += fmt::format("{} {} {:.3f}", k ? "," : "", row_of(kernels[k].kernel).name, milliseconds_of_step(kernels[k]));
+  return text + "\n";
+}
+
+Json json_of_kernels(const std::vector<KernelTime> &kernels)
+{
+  Json list = Json::array();
+  for (const KernelTime &kernel : kernels)
+    list.push_back({{"name", row_of(kernel.kernel).name},
+                    {"backend", kernel.backend},
+                    {"launches", static_cast<double>(kernel.launches) / profiled_steps},
+                    {"ms", milliseconds_of_step(kernel)}});
+  return list;
+}
+
 std::string text_of(const ControlsTime &time, uint64_t steps)
 {
   return fmt::format("  {}: {} worlds, {} controls drawn anew for each in {} steps of {:g} ms\n"
                      "  setting them {:.3f} ms, stepping {:.3f} ms: {:.0f} world-steps/s; {:.1f} contact points in a "
                      "world\n",
                      time.scene, time.worlds, time.controls, steps, 1e3 * control_step, time.set, time.step,
-                     driven_steps_a_second(time), time.contacts);
+                     driven_steps_a_second(time), time.contacts) +
+         text_of_kernels(time.kernels);
 }
 
 Json json_of(const ControlsTime &time)
@@ -158,7 +197,8 @@ Json json_of(const ControlsTime &time)
           {"set_ms", time.set},
           {"step_ms", time.step},
           {"world_steps_per_second", driven_steps_a_second(time)},
-          {"contact_points", time.contacts}};
+          {"contact_points", time.contacts},
+          {"kernels", json_of_kernels(time.kernels)}};
 }
 
 } // namespace
