@@ -15,8 +15,8 @@ set(TANDEM_FEATURES "" CACHE STRING
 set(feature_group_spheres SPHERE_SPHERE SPHERE_HALF_SPACE FRICTION RESTITUTION SUBSTEP_WARM_START)
 set(feature_group_boxes BOX_BOX BOX_HALF_SPACE SEVERAL_POINTS GYROSCOPIC FRICTION RESTITUTION SUBSTEP_WARM_START)
 set(feature_group_spheres_and_boxes ${feature_group_spheres} ${feature_group_boxes} SPHERE_BOX PAIR_KINDS)
-set(feature_group_convex_shapes ${feature_group_spheres_and_boxes} SPHERE_CAPSULE CAPSULE_CAPSULE CAPSULE_HALF_SPACE
-  CONVEX_CONVEX CONVEX_HALF_SPACE CONVEX HULL ROUND AXES EXPANSION)
+set(feature_group_convex_shapes ${feature_group_spheres_and_boxes} SPHERE_CAPSULE BOX_CAPSULE CAPSULE_CAPSULE
+  CAPSULE_HALF_SPACE CONVEX_CONVEX CONVEX_HALF_SPACE CONVEX HULL ROUND AXES EXPANSION)
 set(feature_group_meshes ${feature_group_convex_shapes} TREES)
 set(feature_groups spheres boxes spheres_and_boxes convex_shapes meshes)
 

@@ -1,5 +1,5 @@
-/* pair_groups.h - the number of pairs that a work-group of subtree_pairs.h and of follow_boxes.h processes, for kernels
- * and for the host that launches them.
+/* pair_groups.h - the number of pairs that a work-group of subtree_pairs.h and of followed_pairs.h processes, for
+ * kernels and for the host that launches them.
  *
  * A GROUP kernel runs one group for each TILE items of its range, so the range is TILE times the number of groups. */
 #ifndef TANDEM_SHARED_MIDPHASE_PAIR_GROUPS_H
@@ -10,7 +10,7 @@
 
 /* Pairs of a group of subtree_pairs.h. They are consecutive; because pairs are sorted, most of them search one tree. */
 #define GROUP_PAIRS 64u
-/* Pairs of a group of follow_boxes.h. They are more than a group has items, because a device takes longer to start a
+/* Pairs of a group of followed_pairs.h. They are more than a group has items, because a device takes longer to start a
  * group than to read a tile. */
 #define FOLLOW_PAIRS 1024u
 

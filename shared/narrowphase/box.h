@@ -13,6 +13,13 @@ typedef struct {
   vec3 extent;  /* half extents along them */
 } oriented_box;
 
+/* The point of a box, in its own axes. */
+SHARED vec3 nearest_in_box(vec3 point, vec3 extent)
+{
+  return make_vec3(clamped(point.x, -extent.x, extent.x), clamped(point.y, -extent.y, extent.y),
+                   clamped(point.z, -extent.z, extent.z));
+}
+
 SHARED oriented_box oriented_box_of(vec4 orientation, vec3 extent)
 {
   mat3 rotation = rotation_of(quat_from(orientation));

@@ -8,7 +8,7 @@
  * General convex shapes (collide_convex.h) would find the same contacts, one pair at a time. A capsule whose ends
  * differ in radius, that belongs to a compound or that has continuous collision is such a shape.
  *
- * The motion within the step is followed as that of all shapes is: time_of_impact.h, conservative_advancement.h.
+ * Pairs that may pass each other within the step are left to follow_capsules.h.
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_CAPSULES_H
 #define TANDEM_SHARED_NARROWPHASE_CAPSULES_H
@@ -62,6 +62,11 @@ SHARED capsule_pair capsules_after(capsule_pair pair, pair_motion moves, real ti
   capsule_pair then = {capsule_after(pair.a, moves.a, moves.a.linear, time),
                        capsule_after(pair.b, moves.b, moves.a.linear, time)};
   return then;
+}
+
+SHARED segment_points closest_of_capsules(capsule_pair pair)
+{
+  return closest_of_segments(middle_of_capsule(pair.a), pair.a.to_end, middle_of_capsule(pair.b), pair.b.to_end);
 }
 
 /* The gap along a unit normal from a to b. */
@@ -162,8 +167,7 @@ SHARED vec4 point_between_sides(capsule_pair pair, vec3 normal, real place)
 /* The pair is seen from the centre of body a. aside: the direction in which two that lie in each other part. */
 SHARED manifold contact_of_capsules(capsule_pair pair, vec3 aside)
 {
-  segment_points p =
-      closest_of_segments(middle_of_capsule(pair.a), pair.a.to_end, middle_of_capsule(pair.b), pair.b.to_end);
+  segment_points p = closest_of_capsules(pair);
   vec3 between = between_closest(pair, p);
   real distance = length_of(between), radii = pair.a.radius + pair.b.radius;
   real size = length_of(pair.a.to_end) + length_of(pair.b.to_end) + radii;
@@ -184,35 +188,6 @@ SHARED manifold contact_of_capsules(capsule_pair pair, vec3 aside)
   return m;
 }
 
-/* The time free of touching by the chord along a normal that turns with the viewer, which is body a or b of the pair.
- * other_radius: of the sphere that the spin of the other one sweeps. */
-SHARED real free_beside_capsule(capsule_pair start, pair_motion moves, vec3 turning, vec3 turning_other,
-                                real other_radius, vec3 normal, real gap, advancement at, toi_input input)
-{
-  vec3 apart = subtract(start.b.pivot, start.a.pivot);
-  real speed = length_of(subtract(moves.b.linear, moves.a.linear)), distance = length_of(apart) + speed * input.horizon;
-  real acceleration = acceleration_seen(length_of(turning), distance, speed, length_of(turning_other), other_radius);
-  real span = span_of(at, gap, acceleration, input);
-  real gap_then =
-      gap_of_capsules_along(capsules_after(start, moves, at.time + span), rotate(turn_within(turning, span), normal));
-  return free_by_chord(gap, gap_then, span, acceleration, input);
-}
-
-SHARED advancement impact_of_capsules(mask reached, capsule_pair start, vec3 aside, pair_motion moves, toi_input input)
-{
-  vec3 turning_a = moves.a.angular, turning_b = moves.b.angular;
-  advancement at = start_advancement(reached);
-  for (uint round = 0u; round < ADVANCEMENT_ROUNDS; ++round) {
-    manifold now = contact_of_capsules(capsules_after(start, moves, at.time), aside);
-    real gap = least_separation(now);
-    real by_a = free_beside_capsule(start, moves, turning_a, turning_b, moves.radius_b, now.normal, gap, at, input),
-         by_b = free_beside_capsule(start, moves, turning_b, turning_a, moves.radius_a, now.normal, gap, at, input);
-    at = advanced(at, round, gap, closing_speed(moves, now.normal), maximum(by_a, by_b), input);
-    if (!any_of(at.active)) break;
-  }
-  return at;
-}
-
 SHARED manifold capsules_within_reach(GLOBAL const Parameters *parameters, capsule_pair pair, vec3 aside,
                                       pair_motion moves)
 {
@@ -220,22 +195,37 @@ SHARED manifold capsules_within_reach(GLOBAL const Parameters *parameters, capsu
   return kept_within(m, reach_of_pair(parameters, moves, m.normal));
 }
 
-/* The manifold for the whole step. */
-SHARED manifold capsules_over_step(GLOBAL const Parameters *parameters, mask mine, capsule_pair pair, vec3 aside,
-                                   pair_motion moves)
+/* Two capsules of a pair as they move. aside: the direction in which two that lie in each other part. */
+typedef struct {
+  capsule_pair pair;
+  vec3 aside;
+  pair_motion moves;
+  toi_input input;
+  real least;
+} moving_capsules;
+
+SHARED moving_capsules load_moving_capsules(GLOBAL const uint *flags, GLOBAL const float4 *shapes,
+                                            GLOBAL const float4 *poses, read_bodies bodies,
+                                            GLOBAL const Parameters *parameters, uint_lanes a, uint_lanes b)
 {
-  manifold m = capsules_within_reach(parameters, pair, aside, moves);
-  real least = minimum(pair.a.radius, pair.b.radius),
-       size = length_of(pair.a.to_end) + length_of(pair.b.to_end) + pair.a.radius + pair.b.radius;
-  toi_input input = toi_input_of_step(parameters, moves, least, size);
-  speculation s = speculation_of(parameters, m, pair.b.pivot, moves, input, least);
-  if (any_of(mine & s.asked)) {
-    encounter met = encounter_of(parameters, s, impact_of_capsules(mine & s.reached, pair, aside, moves, input), input);
-    capsule_pair then = capsules_after(pair, moves, choose(met.at_impact, met.time, (real)R(0.0)));
-    m = choose_manifold(met.at_impact, capsules_within_reach(parameters, then, aside, moves), m);
-    m = as_seen_from_start(parameters, m, met, then.b.pivot, moves);
-  }
-  return m;
+  mask a_is_sphere = shape_of(load_uint(flags, a)) == (uint)SHAPE_SPHERE,
+       b_is_sphere = shape_of(load_uint(flags, b)) == (uint)SHAPE_SPHERE;
+  real zero = R(0.0);
+  moving_capsules p;
+  p.pair.a = capsule_of_body(shapes, poses, bodies.orientation, make_vec3(zero, zero, zero), a_is_sphere, a);
+  p.pair.b = capsule_of_body(shapes, poses, bodies.orientation, offset_between(bodies.position, a, b), b_is_sphere, b);
+  p.aside = parting_direction(a, b);
+  p.moves = load_pair_motion(bodies, parameters, a, b, choose(a_is_sphere, zero, load_float4(shapes, a).w),
+                             choose(b_is_sphere, zero, load_float4(shapes, b).w));
+  p.least = minimum(p.pair.a.radius, p.pair.b.radius);
+  real size = length_of(p.pair.a.to_end) + length_of(p.pair.b.to_end) + p.pair.a.radius + p.pair.b.radius;
+  p.input = toi_input_of_step(parameters, p.moves, p.least, size);
+  return p;
+}
+
+SHARED speculation speculation_of_capsules(GLOBAL const Parameters *parameters, manifold m, const moving_capsules *p)
+{
+  return speculation_of(parameters, m, p->pair.b.pivot, p->moves, p->input, p->least);
 }
 
 SHARED void collide_capsules(uint kind, read_listed_pairs pairs, GLOBAL const uint *flags, GLOBAL const float4 *shapes,
@@ -244,17 +234,10 @@ SHARED void collide_capsules(uint kind, read_listed_pairs pairs, GLOBAL const ui
 {
   handled item = handled_pair(parameters, pairs, flags, kind, i);
   if (!any_of(item.mine)) return;
-  uint_lanes a = item.a, b = item.b;
-  mask a_is_sphere = shape_of(load_uint(flags, a)) == (uint)SHAPE_SPHERE,
-       b_is_sphere = shape_of(load_uint(flags, b)) == (uint)SHAPE_SPHERE;
-  real zero = R(0.0);
-  capsule_pair pair = {
-      capsule_of_body(shapes, poses, bodies.orientation, make_vec3(zero, zero, zero), a_is_sphere, a),
-      capsule_of_body(shapes, poses, bodies.orientation, offset_between(bodies.position, a, b), b_is_sphere, b)};
-  pair_motion moves = load_pair_motion(bodies, parameters, a, b, choose(a_is_sphere, zero, load_float4(shapes, a).w),
-                                       choose(b_is_sphere, zero, load_float4(shapes, b).w));
-  manifold m = capsules_over_step(parameters, item.mine, pair, parting_direction(a, b), moves);
+  moving_capsules p = load_moving_capsules(flags, shapes, poses, bodies, parameters, item.a, item.b);
+  manifold m = capsules_within_reach(parameters, p.pair, p.aside, p.moves);
   store_manifold_if(item.mine, m, planes_of(counts), manifolds, item.pair);
+  mark_to_follow_if(item.mine & speculation_of_capsules(parameters, m, &p).asked, m, manifolds.count, item.pair);
 }
 
 SHARED void collide_capsule_capsule_item(read_listed_pairs pairs, GLOBAL const uint *flags, GLOBAL const float4 *shapes,

@@ -90,21 +90,28 @@ SHARED real free_beside(const moving_convex *viewer, const moving_convex *other,
   return free_by_chord(gap, gap_then, span, acceleration, input);
 }
 
+/* Measures gap and normal at a time. The search starts from the normal so far, or from the centres. */
+SHARED void measure_gap(impact *met, const moving_convex *a, const moving_convex *b, toi_input input, real time,
+                        mask from_normal)
+{
+  convex shape_a = shape_at(a, a->linear, time), shape_b = shape_at(b, a->linear, time);
+  convex_pair pair = pair_of(&shape_a, &shape_b);
+  real radii = core_radius(&shape_a) + core_radius(&shape_b);
+  vec3 guess = from_normal ? rotate_back(pair.axes, pair.swapped ? met->normal : negate(met->normal))
+                           : subtract(pair.a.center, pair.b.center);
+  gap_wanted wanted = {input.fastest * (input.horizon - time) + radii, input.roughly, radii};
+  gjk_result near = closest_points_from(&pair.a, &pair.b, wanted, guess);
+  vec3 along = rotate(pair.axes, near.contact.normal);
+  met->normal = pair.swapped ? negate(along) : along;
+  met->gap = (near.overlapping ? R(0.0) : near.contact.gap) - radii;
+}
+
 SHARED impact first_impact(const moving_convex *a, const moving_convex *b, toi_input input)
 {
   impact met = no_impact();
   vec3 approach = subtract(a->linear, b->linear);
   for (uint round = 0u; round < ADVANCEMENT_ROUNDS && met.at.active; ++round) {
-    convex shape_a = shape_at(a, a->linear, met.at.time), shape_b = shape_at(b, a->linear, met.at.time);
-    convex_pair pair = pair_of(&shape_a, &shape_b);
-    real radii = core_radius(&shape_a) + core_radius(&shape_b);
-    vec3 guess = round == 0u ? subtract(pair.a.center, pair.b.center)
-                             : rotate_back(pair.axes, pair.swapped ? met.normal : negate(met.normal));
-    gap_wanted wanted = {input.fastest * (input.horizon - met.at.time) + radii, input.roughly, radii};
-    gjk_result near = closest_points_from(&pair.a, &pair.b, wanted, guess);
-    vec3 along = rotate(pair.axes, near.contact.normal);
-    met.normal = pair.swapped ? negate(along) : along;
-    met.gap = (near.overlapping ? R(0.0) : near.contact.gap) - radii;
+    measure_gap(&met, a, b, input, met.at.time, round > 0u);
     real closing = dot3(met.normal, approach) + swing_along(a, met.normal) + swing_along(b, met.normal);
     real chord = R(0.0);
     if (met.gap > input.touching && met.gap < closing * (input.horizon - met.at.time)) {
@@ -141,6 +148,15 @@ SHARED impact first_impact_on_plane(const moving_convex *body, vec3 up, real hei
   return met;
 }
 
+/* Whether two bodies touch at the end of their motion, so that they have met. Where they do not move far either, they
+ * keep the contacts of the start (encounter_of), as nearly all pairs that come to rest do. */
+SHARED mask touches_at_end(const moving_convex *a, const moving_convex *b, toi_input input)
+{
+  impact end = no_impact();
+  measure_gap(&end, a, b, input, input.horizon, 0);
+  return end.gap <= input.touching;
+}
+
 /* Finds the impact of two shapes, seen from the centre of the first one's body. Both are moved to their poses at the
  * impact if the manifold is to be made there. */
 SHARED encounter meet(GLOBAL const Parameters *parameters, convex *first, convex *second, vec3 offset,
@@ -149,7 +165,10 @@ SHARED encounter meet(GLOBAL const Parameters *parameters, convex *first, convex
   vec3 none = make_vec3(R(0.0), R(0.0), R(0.0));
   moving_convex a = moving_convex_of(first, none, moves.a.linear, moves.a.angular, moves.radius_a);
   moving_convex b = moving_convex_of(second, offset, moves.b.linear, moves.b.angular, moves.radius_b);
-  encounter met = encounter_of(parameters, s, s.reached ? first_impact(&a, &b, input).at : start_advancement(0), input);
+  advancement at = start_advancement(0);
+  if (s.reached && !input.far && touches_at_end(&a, &b, input)) at.hits = 1;
+  else if (s.reached) at = first_impact(&a, &b, input).at;
+  encounter met = encounter_of(parameters, s, at, input);
   if (met.at_impact) {
     *first = shape_at(&a, a.linear, met.time);
     *second = shape_at(&b, a.linear, met.time);

@@ -2,19 +2,14 @@
  *
  *   collide_box_box -> follow_boxes: the contacts of the impact, those of the start, or none
  *
- *   pairs | . . x . . . . x . . . . . . . x | . . .      x: marked TO_FOLLOW
- *             |         |               |
- *            [0]       [1]             [2]               the items of a group take them one after another
- *
  * It is a kernel of its own because it needs twice the registers of collide_box_box, which would slow all pairs down.
- * Few pairs are marked, so a group first gathers the marked ones of FOLLOW_PAIRS pairs. If each item looked at a pair
- * of its own instead, a device would spend more time on starting items than on pairs.
+ * Few pairs are followed, so a group first gathers them (followed_pairs.h).
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_FOLLOW_BOXES_H
 #define TANDEM_SHARED_NARROWPHASE_FOLLOW_BOXES_H
 
-#include "shared/midphase/pair_groups.h"
 #include "shared/narrowphase/box_box.h"
+#include "shared/narrowphase/followed_pairs.h"
 #include "shared/narrowphase/middle_ball.h"
 
 /* The impact of two boxes. A gap along any of the fifteen axes separates the boxes, so the best axis serves. Edges are
@@ -118,22 +113,13 @@ SHARED void follow_pair_of_boxes(read_listed_pairs pairs, GLOBAL const float4 *s
   store_manifold_if(1, m, planes, manifolds, i);
 }
 
-/* local_memory: the number of marked pairs, then their indices in any order. */
+/* local_memory: the list of followed_pairs.h. */
 SHARED void follow_boxes_group(read_listed_pairs pairs, GLOBAL const uint *flags, GLOBAL const float4 *shapes,
                                read_bodies bodies, GLOBAL const Parameters *parameters, GLOBAL const uint *counts,
                                write_manifolds manifolds, LOCAL uint *local_memory, uint group)
 {
-  const uint first = start_of_list(parameters, counts, PAIR_KIND_BOX_BOX) + group * FOLLOW_PAIRS;
-  const uint end = end_of_list(parameters, counts, PAIR_KIND_BOX_BOX);
-  const uint count = first < end ? (end - first < FOLLOW_PAIRS ? end - first : FOLLOW_PAIRS) : 0u;
-  FOR_EACH_ITEM(only, 1u) local_memory[only] = 0u;
-  FOR_EACH_ITEM(k, count)
-  {
-    const uint pair = pair_of_item(parameters, pairs.of_kind, first + k);
-    if (manifolds.count[pair] >= TO_FOLLOW &&
-        is_of_kind(parameters, flags, pairs.a[pair], pairs.b[pair], PAIR_KIND_BOX_BOX))
-      local_memory[1u + LOCAL_ADD(local_memory, 1u)] = pair;
-  }
+  gather_followed_pairs(pairs.of_kind, pairs.a, pairs.b, flags, parameters, counts, manifolds.count, PAIR_KIND_BOX_BOX,
+                        local_memory, group);
   FOR_EACH_ITEM(k, local_memory[0])
   {
     follow_pair_of_boxes(pairs, shapes, bodies, parameters, counts, manifolds, local_memory[1u + k]);

@@ -2,14 +2,15 @@
  *
  *   collide_convex or reduce_contacts -> follow_convexes: the contacts of the impact, those of the start, or none
  *
- * It is a kernel of its own because few pairs are followed. In one kernel with the manifolds of all pairs, a device
- * would wait for the slowest pair and need the registers of both. The bodies are advanced by
- * conservative_advancement.h.
+ * It is a kernel of its own because few pairs are followed, which a group first gathers (followed_pairs.h). In one
+ * kernel with the manifolds of all pairs, a device would wait for the slowest pair and need the registers of both. The
+ * bodies are advanced by conservative_advancement.h.
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_FOLLOW_CONVEXES_H
 #define TANDEM_SHARED_NARROWPHASE_FOLLOW_CONVEXES_H
 
 #include "shared/narrowphase/collide_convex.h"
+#include "shared/narrowphase/followed_pairs.h"
 #include "shared/narrowphase/middle_ball.h"
 
 /* Shapes without a contact at the start are followed only because one of them is a triangle. */
@@ -70,20 +71,30 @@ SHARED manifold contact_over_step(GLOBAL const Parameters *parameters, convex_qu
   return as_seen_from_start(parameters, m, met, offset, query->moves);
 }
 
-SHARED void follow_convexes_item(read_listed_part_pairs pairs, read_shapes shapes, read_surfaces surfaces,
-                                 read_bodies bodies, GLOBAL const Parameters *parameters, GLOBAL const uint *counts,
-                                 write_manifolds manifolds, uint method, uint i)
+SHARED void follow_pair_of_convexes(read_listed_part_pairs pairs, read_shapes shapes, read_surfaces surfaces,
+                                    read_bodies bodies, GLOBAL const Parameters *parameters, GLOBAL const uint *counts,
+                                    write_manifolds manifolds, uint method, uint pair)
 {
-  if (!HAS_FEATURE(parameters, CONVEX_CONVEX)) return;
-  uint pair;
-  if (!is_convex_pair(&pair, parameters, pairs, shapes.flags, PAIR_KIND_CONVEX_CONVEX, i)) return;
   convex_query query;
-  if (manifolds.count[pair] < TO_FOLLOW ||
-      !load_convex_query(&query, pairs, shapes, surfaces, bodies, parameters, method, pair))
-    return;
+  if (!load_convex_query(&query, pairs, shapes, surfaces, bodies, parameters, method, pair)) return;
   point_planes planes = planes_of(counts);
   manifold start = load_manifold(planes, manifolds, pair);
   store_manifold_if(1, contact_over_step(parameters, &query, start, method & 255u), planes, manifolds, pair);
+}
+
+/* local_memory: the list of followed_pairs.h. */
+SHARED void follow_convexes_group(read_listed_part_pairs pairs, read_shapes shapes, read_surfaces surfaces,
+                                  read_bodies bodies, GLOBAL const Parameters *parameters, GLOBAL const uint *counts,
+                                  write_manifolds manifolds, uint method, LOCAL uint *local_memory, uint group)
+{
+  if (!HAS_FEATURE(parameters, CONVEX_CONVEX)) return;
+  gather_followed_pairs(pairs.of_kind, pairs.a, pairs.b, shapes.flags, parameters, counts, manifolds.count,
+                        PAIR_KIND_CONVEX_CONVEX, local_memory, group);
+  FOR_EACH_ITEM(k, local_memory[0])
+  {
+    follow_pair_of_convexes(pairs, shapes, surfaces, bodies, parameters, counts, manifolds, method,
+                            local_memory[1u + k]);
+  }
 }
 
 #endif

@@ -5,6 +5,7 @@
 #define TANDEM_SHARED_NARROWPHASE_KERNELS_H
 
 #include "shared/narrowphase/box_box.h"
+#include "shared/narrowphase/box_capsule.h"
 #include "shared/narrowphase/box_half_space.h"
 #include "shared/narrowphase/capsule_half_space.h"
 #include "shared/narrowphase/capsules.h"
@@ -15,7 +16,9 @@
 #ifndef TANDEM_LANES /* ITEM and GROUP kernels take one item at a time */
 #include "shared/narrowphase/clamp_to_time_of_impact.h"
 #include "shared/narrowphase/collide_convex.h"
+#include "shared/narrowphase/follow_box_capsules.h"
 #include "shared/narrowphase/follow_boxes.h"
+#include "shared/narrowphase/follow_capsules.h"
 #include "shared/narrowphase/follow_convexes.h"
 #include "shared/narrowphase/list_pairs.h"
 #include "shared/narrowphase/sat_split.h"

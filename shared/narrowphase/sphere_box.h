@@ -8,8 +8,8 @@
 #ifndef TANDEM_SHARED_NARROWPHASE_SPHERE_BOX_H
 #define TANDEM_SHARED_NARROWPHASE_SPHERE_BOX_H
 
+#include "shared/narrowphase/box.h"
 #include "shared/narrowphase/pair_lists.h"
-#include "shared/narrowphase/time_of_impact.h"
 
 /* The outward direction from the surface of a box to a point, and the distance, both in the axes of the box. */
 typedef struct {
@@ -19,9 +19,7 @@ typedef struct {
 
 SHARED box_distance distance_to_box(vec3 point, vec3 extent)
 {
-  vec3 nearest = make_vec3(clamped(point.x, -extent.x, extent.x), clamped(point.y, -extent.y, extent.y),
-                           clamped(point.z, -extent.z, extent.z));
-  vec3 away = subtract(point, nearest);
+  vec3 away = subtract(point, nearest_in_box(point, extent));
   real distance = length_of(away);
   mask outside = distance > R(1e-12);
 

@@ -79,3 +79,66 @@ TEST_CASE("capsules: thrown at a half-space while they turn fast they gain no en
   CHECK(most < 1.02);
   CHECK(least < 0.5); /* they did hit it */
 }
+
+TEST_CASE("capsules: on a box they lie still, along it, across it and over its edge", "[physics]")
+{
+  for (const double around : {0.0, 0.3, pi / 4, pi / 2})
+    for (const double shift : {0.0, 0.55, 0.95}) {
+      Scene scene;
+      Body &table = add_dynamic_body(scene, box_shape(1, 0.25f, 0.7f), {0, 0, 0});
+      table.type = BodyType::fixed;
+      const Eigen::Quaterniond turn = Eigen::Quaterniond(Eigen::AngleAxisd(around, Vector::UnitY())) *
+                                      Eigen::Quaterniond(Eigen::AngleAxisd(pi / 2, Vector::UnitZ()));
+      const Vector axis = turn * Vector::UnitY(), at = shift * (axis.cwiseAbs().x() > 0.5 ? axis : Vector(1, 0, 0));
+      if (std::abs(at.z()) > 0.6) continue;
+      add_dynamic_body(scene, capsule_shape(0.1f, 0.5f), {at.x(), 0.35, at.z()},
+                       {float(turn.x()), float(turn.y()), float(turn.z()), float(turn.w())});
+      World world(scene, {}, {"serial", {}, false});
+      double fastest = 0;
+      for (int step = 0; step < 120; ++step) {
+        world.step();
+        if (step >= 30) fastest = std::max(fastest, vector_of(world.bodies()[1].linear_velocity).norm());
+      }
+      CAPTURE(around, shift);
+      CHECK(fastest < 1e-4);
+      CHECK(world.bodies()[1].position[1] == Approx(0.35).margin(0.006)); /* the slop */
+    }
+}
+
+TEST_CASE("capsules: thrown at a thin box while they turn few pass it, and none gains energy", "[physics]")
+{
+  Random random(9);
+  Scene scene;
+  scene.gravity = {0, 0, 0};
+  Body &sheet = add_dynamic_body(scene, box_shape(500, 0.01f, 500), {0, 0, 0});
+  sheet.type = BodyType::fixed;
+  const Shape shape = capsule_shape(0.1f, 0.3f);
+  for (int k = 0; k < 400; ++k) {
+    Body &body = add_dynamic_body(scene, shape, {20.0 * (k % 20) - 200, random.uniform(0.5, 3), 20.0 * (k / 20) - 200},
+                                  any_turn(random));
+    body.linear_velocity = {float(random.uniform(-5, 5)),
+                            float(-std::exp(random.uniform(std::log(5.0), std::log(300.0)))), 0};
+    body.mass = 1;
+    body.angular_velocity = vec3_of(direction(random) * random.uniform(0, 100));
+  }
+  World world(scene, {}, {"tbb", {}, false});
+  const auto energy_of = [&](const BodyState &state) {
+    const Vec3 moments = inertia_of(shape, 1);
+    const Vector spin = axes_of(state.orientation).transpose() * vector_of(state.angular_velocity);
+    return 0.5 * vector_of(state.linear_velocity).squaredNorm() +
+           0.5 * spin.dot(spin.cwiseProduct(Vector(moments[0], moments[1], moments[2])));
+  };
+  const std::vector<BodyState> before = world.bodies();
+  for (int step = 0; step < 60; ++step) world.step();
+  const std::vector<BodyState> after = world.bodies();
+  size_t passed = 0, struck = 0;
+  double most = 0;
+  for (size_t k = 1; k < before.size(); ++k) {
+    passed += after[k].position[1] < 0;
+    struck += after[k].linear_velocity[1] > -1;
+    most = std::max(most, energy_of(after[k]) / energy_of(before[k]));
+  }
+  CHECK(100 * passed < before.size());
+  CHECK(passed + struck == before.size() - 1);
+  CHECK(most < 1.01);
+}

@@ -93,7 +93,7 @@ std::vector<PairKind> kinds()
           {"sphere-capsule", ball, capsule, PAIR_KIND_SPHERE_CAPSULE, own},
           {"capsule-capsule", capsule, capsule, PAIR_KIND_CAPSULE_CAPSULE, own},
           {"capsule-half-space", capsule, {}, PAIR_KIND_CAPSULE_HALF_SPACE, own},
-          {"capsule-box", capsule, box, PAIR_KIND_CONVEX_CONVEX, round},
+          {"box-capsule", box, capsule, PAIR_KIND_BOX_CAPSULE, own},
           {"cylinder-box", cylinder, box, PAIR_KIND_CONVEX_CONVEX, round},
           {"hull32-box", hull32, box, PAIR_KIND_CONVEX_CONVEX, all},
           {"hull32-hull32", hull32, hull32, PAIR_KIND_CONVEX_CONVEX, hulls},

@@ -1,36 +1,11 @@
 /* Capsules against capsules, spheres and half-spaces: the distance of segments in double precision, by their ends and
  * their common perpendicular. */
-#include "tests/catch.h"
-#include "tests/shared/narrowphase/pairs.h"
+#include "tests/shared/narrowphase/capsules.h"
 
 using namespace tandem;
 using namespace tandem::narrowphase_tests;
 
 namespace {
-
-struct Segment {
-  Vector low, high;
-
-  Vector middle() const { return (low + high) / 2; }
-  Vector half() const { return (high - low) / 2; }
-  double distance_to(const Vector &p) const
-  {
-    const Vector along = high - low;
-    const double squared = along.squaredNorm();
-    const double t = squared > 0 ? std::clamp((p - low).dot(along) / squared, 0.0, 1.0) : 0;
-    return (low + t * along - p).norm();
-  }
-};
-
-Segment segment_of(const TestBody &body)
-{
-  const Eigen::Matrix3d own = body.shape_orientation.cast<double>().normalized().toRotationMatrix();
-  const Vector middle = body.center() + body.axes() * body.shape_position.cast<double>();
-  const Vector half = body.axes() * own.col(1) * (body.shape == capsule ? double(body.size.y()) : 0.0);
-  return {middle - half, middle + half};
-}
-double radius_of(const TestBody &body) { return double(body.size.x()); }
-double size_of(const TestBody &body) { return segment_of(body).half().norm() + radius_of(body); }
 
 /* Two segments are nearest at an end of one of them, or where a line perpendicular to both meets both. */
 double distance_between(const Segment &a, const Segment &b)
@@ -52,28 +27,6 @@ double separation_of(const TestBody &a, const TestBody &b)
   if (b.shape != half_space) return distance_between(segment_of(a), segment_of(b)) - radius_of(a) - radius_of(b);
   const Vector up = b.axes().col(1);
   return std::min(up.dot(segment_of(a).low - b.center()), up.dot(segment_of(a).high - b.center())) - radius_of(a);
-}
-
-double least_until(const TestBody &a, const TestBody &b, double time)
-{
-  double least = 1e30;
-  for (int k = 0; k <= 96; ++k)
-    least = std::min(least, separation_of(moved(a, time * k / 96), moved(b, time * k / 96)));
-  return least;
-}
-
-TestBody random_round(Random &random, Shape shape, double low, double high)
-{
-  TestBody body;
-  body.shape = shape;
-  body.size.x() = body.size.z() = float(random.logarithmic(low, high));
-  body.size.y() = float(random.logarithmic(low, high));
-  body.orientation = random.orientation().cast<float>();
-  if (shape == capsule && random.below(3) == 0) {
-    body.shape_position = random.in_cube(double(body.size.y())).cast<float>();
-    body.shape_orientation = random.orientation().cast<float>();
-  }
-  return body;
 }
 
 /* Moves b so that its segment is at a gap from that of a along a direction. */
@@ -166,66 +119,12 @@ void compare_at_rest(PairScene scene, Kernel kernel)
   CHECK((kernel == Kernel::collide_sphere_capsule) == (two == 0));
 }
 
-TestBody lying_capsule(double radius, double half, const Vector &at, const Vector &axis)
-{
-  TestBody body;
-  body.shape = capsule;
-  body.size = Eigen::Vector3f(float(radius), float(half), float(radius));
-  body.position = at.cast<float>();
-  body.orientation = Eigen::Quaterniond::FromTwoVectors(Vector::UnitY(), axis).cast<float>();
-  return body;
-}
-
 std::vector<double> sorted_x(const Contact &contact, const Vector &origin)
 {
   std::vector<double> x;
   for (const Point &point : contact.points) x.push_back((origin + point.offset).x());
   std::sort(x.begin(), x.end());
   return x;
-}
-
-/* Contacts of moving bodies: none of the two touches before the moment of the contacts, they touch then, and pairs that
- * lose their contacts miss. */
-void compare_in_motion(PairScene scene, Kernel kernel)
-{
-  const Outputs outputs = scene.run({kernel});
-  const double step = scene.parameters.step;
-  size_t at_impact = 0, guarded = 0, missing = 0, wrong = 0;
-  for (size_t pair = 0; pair < scene.size(); ++pair) {
-    const TestBody &a = scene.a(pair), &b = scene.b(pair);
-    const double moment = std::abs(outputs.normals[pair].w), time = moment > 1e-11 ? moment : 0,
-                 start = separation_of(a, b),
-                 tolerance = 1e-5 * ((b.center() - a.center()).norm() + size_of(a) + size_of(b) +
-                                     step * (a.linear - b.linear).norm());
-    const double least =
-        std::min(a.shape == half_space ? 1e30 : radius_of(a), b.shape == half_space ? 1e30 : radius_of(b));
-    const double touching = std::min(1e-3 * least, 0.02 * double(scene.parameters.slop)) + tolerance;
-    bool good = true;
-    if (time > 0 && std::abs(time - step) > 1e-9) {
-      ++at_impact;
-      good = least_until(a, b, time * 0.999) > -tolerance && separation_of(moved(a, time), moved(b, time)) < touching;
-    } else if (time > 0) {
-      ++guarded;
-      good = least_until(a, b, step) > -tolerance;
-    } else if (outputs.counts[pair] == 0 && start > 0) {
-      ++missing;
-      good = least_until(a, b, step) > -tolerance;
-    }
-    if (!good && wrong++ < 3) {
-      CAPTURE(pair, time, start, least_until(a, b, step), separation_of(moved(a, time), moved(b, time)), touching);
-      CHECK(good);
-    }
-  }
-  CAPTURE(at_impact, guarded, missing);
-  CHECK(wrong == 0);
-  CHECK(at_impact > scene.size() / 10);
-  CHECK(missing > scene.size() / 20);
-}
-
-void set_in_motion(Random &random, TestBody &body, const Vector &towards)
-{
-  body.linear = (random.logarithmic(1, 300) * (towards + 0.4 * random.in_cube(1))).cast<float>();
-  body.angular = random.in_cube(random.logarithmic(0.1, 60)).cast<float>();
 }
 
 PairScene moving_pairs(Random &random, Shape first)
@@ -367,7 +266,9 @@ TEST_CASE("capsule against half-space: below both ends where it lies, below the 
 TEST_CASE("capsules: in motion, contacts of the moment at which they touch, and none where they pass")
 {
   Random random(23);
-  compare_in_motion(moving_pairs(random, capsule), Kernel::collide_capsule_capsule);
-  compare_in_motion(moving_pairs(random, sphere), Kernel::collide_sphere_capsule);
-  compare_in_motion(moving_pairs(random, half_space), Kernel::collide_capsule_half_space);
+  compare_in_motion(moving_pairs(random, capsule), {Kernel::collide_capsule_capsule, Kernel::follow_capsules},
+                    separation_of);
+  compare_in_motion(moving_pairs(random, sphere), {Kernel::collide_sphere_capsule, Kernel::follow_sphere_capsules},
+                    separation_of);
+  compare_in_motion(moving_pairs(random, half_space), {Kernel::collide_capsule_half_space}, separation_of);
 }

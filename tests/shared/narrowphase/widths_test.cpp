@@ -7,14 +7,16 @@ using namespace tandem::narrowphase_tests;
 
 namespace {
 
-const std::vector<Kernel> lane_kernels = {Kernel::collide_sphere_sphere,   Kernel::collide_sphere_box,
-                                          Kernel::collide_box_box,         Kernel::collide_sphere_half_space,
-                                          Kernel::collide_box_half_space,  Kernel::collide_sphere_capsule,
-                                          Kernel::collide_capsule_capsule, Kernel::collide_capsule_half_space};
+const std::vector<Kernel> lane_kernels = {
+    Kernel::collide_sphere_sphere,     Kernel::collide_sphere_box,      Kernel::collide_box_box,
+    Kernel::collide_sphere_half_space, Kernel::collide_box_half_space,  Kernel::collide_sphere_capsule,
+    Kernel::collide_box_capsule,       Kernel::collide_capsule_capsule, Kernel::collide_capsule_half_space};
 
 std::vector<Kernel> followed(std::vector<Kernel> kernels)
 {
-  kernels.push_back(Kernel::follow_boxes); /* the last in any order; one group at a time, whatever the width */
+  /* the last in any order; one group at a time, whatever the width */
+  kernels.insert(kernels.end(), {Kernel::follow_boxes, Kernel::follow_box_capsules, Kernel::follow_sphere_capsules,
+                                 Kernel::follow_capsules});
   return kernels;
 }
 const std::vector<Kernel> narrowphase_kernels = followed(lane_kernels);

@@ -1,0 +1,110 @@
+/* follow_capsules.h - follows two capsules, or a sphere and a capsule, that may pass each other within the step to
+ * their impact.
+ *
+ *   collide_capsule_capsule, collide_sphere_capsule -> follow_capsules, follow_sphere_capsules:
+ *   the contacts of the impact, those of the start, or none
+ *
+ * These are kernels of their own because few pairs are followed, which a group first gathers (followed_pairs.h).
+ */
+#ifndef TANDEM_SHARED_NARROWPHASE_FOLLOW_CAPSULES_H
+#define TANDEM_SHARED_NARROWPHASE_FOLLOW_CAPSULES_H
+
+#include "shared/narrowphase/capsules.h"
+#include "shared/narrowphase/followed_pairs.h"
+
+/* The time free of touching by the chord along a normal that turns with the viewer, which is body a or b of the pair.
+ * other_radius: of the sphere that the spin of the other one sweeps. */
+SHARED real free_beside_capsule(capsule_pair start, pair_motion moves, vec3 turning, vec3 turning_other,
+                                real other_radius, vec3 normal, real gap, advancement at, toi_input input)
+{
+  vec3 apart = subtract(start.b.pivot, start.a.pivot);
+  real speed = length_of(subtract(moves.b.linear, moves.a.linear)), distance = length_of(apart) + speed * input.horizon;
+  real acceleration = acceleration_seen(length_of(turning), distance, speed, length_of(turning_other), other_radius);
+  real span = span_of(at, gap, acceleration, input);
+  real gap_then =
+      gap_of_capsules_along(capsules_after(start, moves, at.time + span), rotate(turn_within(turning, span), normal));
+  return free_by_chord(gap, gap_then, span, acceleration, input);
+}
+
+/* The gap between two capsules and its normal, from a to b; of axes that meet there is none. */
+typedef struct {
+  vec3 normal;
+  real gap;
+} capsule_gap;
+
+SHARED capsule_gap gap_between_capsules(capsule_pair pair)
+{
+  vec3 between = between_closest(pair, closest_of_capsules(pair));
+  real distance = length_of(between);
+  mask apart = distance > R(0.0);
+  capsule_gap g = {scale(between, R(1.0) / choose(apart, distance, (real)R(1.0))),
+                   distance - pair.a.radius - pair.b.radius};
+  return g;
+}
+
+/* A pair that does not move far, and touches at the end of its motion, has met and keeps the contacts of the start
+ * (encounter_of), as nearly all pairs that come to rest do. */
+SHARED advancement impact_of_capsules(mask reached, capsule_pair start, pair_motion moves, toi_input input)
+{
+  vec3 turning_a = moves.a.angular, turning_b = moves.b.angular;
+  advancement at = start_advancement(reached);
+  at.hits =
+      reached && !input.far && gap_between_capsules(capsules_after(start, moves, input.horizon)).gap <= input.touching;
+  at.active = at.active && !at.hits;
+  for (uint round = 0u; round < ADVANCEMENT_ROUNDS && at.active; ++round) {
+    capsule_gap now = gap_between_capsules(capsules_after(start, moves, at.time));
+    real by_a = free_beside_capsule(start, moves, turning_a, turning_b, moves.radius_b, now.normal, now.gap, at, input),
+         by_b = free_beside_capsule(start, moves, turning_b, turning_a, moves.radius_a, now.normal, now.gap, at, input);
+    at = advanced(at, round, now.gap, closing_speed(moves, now.normal), maximum(by_a, by_b), input);
+  }
+  return at;
+}
+
+SHARED void follow_pair_of_capsules(read_listed_pairs pairs, GLOBAL const uint *flags, GLOBAL const float4 *shapes,
+                                    GLOBAL const float4 *poses, read_bodies bodies, GLOBAL const Parameters *parameters,
+                                    GLOBAL const uint *counts, write_manifolds manifolds, uint i)
+{
+  point_planes planes = planes_of(counts);
+  moving_capsules p = load_moving_capsules(flags, shapes, poses, bodies, parameters, pairs.a[i], pairs.b[i]);
+  manifold m = load_manifold(planes, manifolds, i);
+  speculation s = speculation_of_capsules(parameters, m, &p);
+  encounter met = encounter_of(parameters, s, impact_of_capsules(s.reached, p.pair, p.moves, p.input), p.input);
+  capsule_pair then = capsules_after(p.pair, p.moves, met.at_impact ? met.time : R(0.0));
+  if (met.at_impact) m = capsules_within_reach(parameters, then, p.aside, p.moves);
+  m = as_seen_from_start(parameters, m, met, then.b.pivot, p.moves);
+  store_manifold_if(1, m, planes, manifolds, i);
+}
+
+/* local_memory: the list of followed_pairs.h. */
+SHARED void follow_capsules_of_kind(uint kind, read_listed_pairs pairs, GLOBAL const uint *flags,
+                                    GLOBAL const float4 *shapes, GLOBAL const float4 *poses, read_bodies bodies,
+                                    GLOBAL const Parameters *parameters, GLOBAL const uint *counts,
+                                    write_manifolds manifolds, LOCAL uint *local_memory, uint group)
+{
+  gather_followed_pairs(pairs.of_kind, pairs.a, pairs.b, flags, parameters, counts, manifolds.count, kind, local_memory,
+                        group);
+  FOR_EACH_ITEM(k, local_memory[0])
+  {
+    follow_pair_of_capsules(pairs, flags, shapes, poses, bodies, parameters, counts, manifolds, local_memory[1u + k]);
+  }
+}
+
+SHARED void follow_capsules_group(read_listed_pairs pairs, GLOBAL const uint *flags, GLOBAL const float4 *shapes,
+                                  GLOBAL const float4 *poses, read_bodies bodies, GLOBAL const Parameters *parameters,
+                                  GLOBAL const uint *counts, write_manifolds manifolds, LOCAL uint *local_memory,
+                                  uint group)
+{
+  follow_capsules_of_kind(PAIR_KIND_CAPSULE_CAPSULE, pairs, flags, shapes, poses, bodies, parameters, counts, manifolds,
+                          local_memory, group);
+}
+
+SHARED void follow_sphere_capsules_group(read_listed_pairs pairs, GLOBAL const uint *flags, GLOBAL const float4 *shapes,
+                                         GLOBAL const float4 *poses, read_bodies bodies,
+                                         GLOBAL const Parameters *parameters, GLOBAL const uint *counts,
+                                         write_manifolds manifolds, LOCAL uint *local_memory, uint group)
+{
+  follow_capsules_of_kind(PAIR_KIND_SPHERE_CAPSULE, pairs, flags, shapes, poses, bodies, parameters, counts, manifolds,
+                          local_memory, group);
+}
+
+#endif
