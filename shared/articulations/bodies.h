@@ -201,10 +201,13 @@ SHARED void write_pose(read_links links, read_bodies bodies, const articulation 
   store_float4_if(l.exists, delta_pose, body * 2u + 1u, extend(turned_by, R(0.0)));
   store_float4_if(l.exists, orientation, body, quat_to_vec4(q));
 }
-SHARED void write_poses(read_links links, read_bodies bodies, const articulation *t, GLOBAL float4 *delta_pose,
-                        GLOBAL float4 *orientation)
+SHARED void write_bodies(read_links links, read_bodies bodies, const articulation *t, write_moved_bodies moved)
 {
-  for (uint k = 0; k < t->most_links; ++k) write_pose(links, bodies, t, tree_link_of(t, k), delta_pose, orientation);
+  for (uint k = 0; k < t->most_links; ++k) {
+    tree_link l = tree_link_of(t, k);
+    write_velocity(links, t, l, moved.velocity);
+    write_pose(links, bodies, t, l, moved.delta, moved.orientation);
+  }
 }
 
 #endif

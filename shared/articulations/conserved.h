@@ -16,16 +16,11 @@ SHARED spatial_force momentum_of_link(const articulation *t, tree_link l, vec3 a
   spatial_force p = {moments_times(t, l, m.angular), scale(m.linear, mass_of_link(t, l))};
   return force_at(p, negate(arm));
 }
-/* The momentum of the tree, and the sum of WORK_FORCE, about the centre of a free root. */
-SHARED spatial_force momentum_of_tree(const articulation *t)
+/* About the centre of a free root. */
+SHARED spatial_force with_momentum_of_link(spatial_force sum, const articulation *t, tree_link l)
 {
-  spatial_force sum = no_force();
-  for (uint k = 0; k < t->most_links; ++k) {
-    tree_link l = tree_link_of(t, k);
-    spatial_force p = momentum_of_link(t, l, xyz(load_work(t, l.k, (uint)WORK_OFFSET)));
-    sum = choose_force(l.exists, add_forces(sum, p), sum);
-  }
-  return sum;
+  spatial_force p = momentum_of_link(t, l, xyz(load_work(t, l.k, (uint)WORK_OFFSET)));
+  return choose_force(l.exists, add_forces(sum, p), sum);
 }
 /* Of a free root; else 0. */
 SHARED vec3 root_velocity(const articulation *t)
@@ -53,27 +48,42 @@ SHARED real energy_of_tree(const articulation *t, vec3 frame)
 }
 
 /* The tree as one body, about the centre of its root. */
-SHARED symmetric6 inertia_of_tree(const articulation *t)
+typedef struct {
+  symmetric6 inertia;
+  spatial_force momentum;
+} whole_tree;
+
+SHARED whole_tree tree_as_one_body(const articulation *t)
 {
-  symmetric6 sum = zero_symmetric6();
+  whole_tree whole = {zero_symmetric6(), no_force()};
   for (uint k = 0; k < t->most_links; ++k) {
     tree_link l = tree_link_of(t, k);
     symmetric6 s = symmetric6_at(inertia_of_link(t, l), negate(xyz(load_work(t, l.k, (uint)WORK_OFFSET))));
-    sum = choose_symmetric6(l.exists, add_symmetric6(sum, s), sum);
+    whole.inertia = choose_symmetric6(l.exists, add_symmetric6(whole.inertia, s), whole.inertia);
+    whole.momentum = with_momentum_of_link(whole.momentum, t, l);
   }
-  return sum;
+  return whole;
+}
+
+/* The mass of a tree, and the sum of the centres of its links times their masses. */
+typedef struct {
+  real mass;
+  vec3 moment;
+} mass_moment;
+
+SHARED mass_moment with_mass_of_link(mass_moment sum, const articulation *t, tree_link l)
+{
+  real own = choose(l.exists, mass_of_link(t, l), (real)R(0.0));
+  mass_moment next = {sum.mass + own, add_scaled(sum.moment, xyz(load_work(t, l.k, (uint)WORK_OFFSET)), own)};
+  return next;
 }
 
 /* The centre of mass, from that of the root. */
 SHARED vec3 center_of_tree(const articulation *t, real inverse_mass)
 {
-  vec3 sum = zero3();
-  for (uint k = 0; k < t->most_links; ++k) {
-    tree_link l = tree_link_of(t, k);
-    real own = choose(l.exists, mass_of_link(t, l), (real)R(0.0));
-    sum = add_scaled(sum, xyz(load_work(t, l.k, (uint)WORK_OFFSET)), own);
-  }
-  return scale(sum, inverse_mass);
+  mass_moment sum = {R(0.0), zero3()};
+  for (uint k = 0; k < t->most_links; ++k) sum = with_mass_of_link(sum, t, tree_link_of(t, k));
+  return scale(sum.moment, inverse_mass);
 }
 
 /* What free motion keeps. drift: the velocity of the centre of mass of a free tree, from which the energy is seen, so
@@ -84,23 +94,20 @@ typedef struct {
   real energy, inverse_mass;
 } conserved;
 
-SHARED real mass_of_tree(const articulation *t)
-{
-  real sum = R(0.0);
-  for (uint k = 0; k < t->most_links; ++k) {
-    tree_link l = tree_link_of(t, k);
-    sum = sum + choose(l.exists, mass_of_link(t, l), (real)R(0.0));
-  }
-  return sum;
-}
 SHARED conserved conserved_of_tree(const articulation *t)
 {
   conserved c;
-  c.momentum = momentum_of_tree(t);
-  c.inverse_mass = inverse_if_positive(mass_of_tree(t));
+  mass_moment sum = {R(0.0), zero3()};
+  c.momentum = no_force();
+  for (uint k = 0; k < t->most_links; ++k) {
+    tree_link l = tree_link_of(t, k);
+    c.momentum = with_momentum_of_link(c.momentum, t, l);
+    sum = with_mass_of_link(sum, t, l);
+  }
+  c.inverse_mass = inverse_if_positive(sum.mass);
   vec3 drift = scale(c.momentum.force, c.inverse_mass);
   c.drift = choose3(tree_link_of(t, 0u).is_free, drift, zero3());
-  c.center = center_of_tree(t, c.inverse_mass);
+  c.center = scale(sum.moment, c.inverse_mass);
   c.energy = energy_of_tree(t, c.drift);
   return c;
 }
@@ -194,10 +201,11 @@ SHARED void conserve(const articulation *t, conserved kept)
   spatial_motion drifts = no_motion(), turns = no_motion();
   real of_turns = R(0.0);
   if (any_of(free)) {
-    symmetric6 inertia = inertia_of_tree(t), inverse = inverse_of_inertia(inertia);
-    carry_tree_if(free, t, inverse_times(&inverse, subtract_forces(kept.momentum, momentum_of_tree(t))));
+    whole_tree whole = tree_as_one_body(t);
+    symmetric6 inverse = inverse_of_inertia(whole.inertia);
+    carry_tree_if(free, t, inverse_times(&inverse, subtract_forces(kept.momentum, whole.momentum)));
     drifts.linear = kept.drift;
-    spatial_force rest = subtract_forces(kept.momentum, inertia_times(&inertia, drifts));
+    spatial_force rest = subtract_forces(kept.momentum, inertia_times(&whole.inertia, drifts));
     turns = choose_motion(free, inverse_times(&inverse, rest), no_motion());
     of_turns = choose(free, R(0.5) * power_of(rest, turns), of_turns);
   }

@@ -132,13 +132,9 @@ SHARED symmetric6 inertia_through_joint(const articulation *t, tree_link l, symm
   return symmetric6_at(through, negate(j.from_parent));
 }
 
-/* After this, WORK_INERTIA has the articulated inertias; that of a free root is inverted. */
+/* From the inertias of single links in WORK_INERTIA to the articulated ones; that of a free root is inverted. */
 SHARED void factor_tree(const articulation *t)
 {
-  for (uint k = 0; k < t->most_links; ++k) {
-    tree_link l = tree_link_of(t, k);
-    store_symmetric6(l.exists, t, l.k, inertia_of_link(t, l));
-  }
   for (uint n = t->most_links; n > 0u; --n) {
     tree_link l = tree_link_of(t, n - 1u);
     symmetric6 s = load_symmetric6(t, l.k);

@@ -36,39 +36,51 @@ SHARED void advance_joint(const articulation *t, tree_link l, real h)
   store_root(moves, t, (uint)ROOT_POSITION, extend(at.high, R(0.0)));
   store_root(moves, t, (uint)ROOT_POSITION + 1u, extend(at.low, R(0.0)));
 }
-SHARED void advance_joints(const articulation *t, real h)
-{
-  for (uint k = 0; k < t->most_links; ++k) advance_joint(t, tree_link_of(t, k), h);
-}
 
-SHARED void note_velocities(const articulation *t)
+/* The velocity with which a substep starts; links keep theirs when that of their joint returns to it. */
+SHARED void note_velocity(const articulation *t, tree_link l)
 {
-  for (uint k = 0; k < t->most_links; ++k) {
-    tree_link l = tree_link_of(t, k);
-    store_work(l.exists, t, l.k, (uint)WORK_START, load_state(t, l.k, (uint)STATE_JOINT_VELOCITY));
-  }
-  store_root(has_links(t), t, (uint)ROOT_START, load_root(t, (uint)ROOT_LINEAR_VELOCITY));
+  store_work(l.exists, t, l.k, (uint)WORK_START, load_state(t, l.k, (uint)STATE_JOINT_VELOCITY));
 }
-/* The links keep their velocities, from which the next round starts. */
+SHARED void return_velocity_if(mask wanted, const articulation *t, tree_link l)
+{
+  store_state(wanted & l.exists, t, l.k, (uint)STATE_JOINT_VELOCITY, load_work(t, l.k, (uint)WORK_START));
+}
 SHARED void return_velocities_if(mask wanted, const articulation *t)
 {
+  for (uint k = 0; k < t->most_links; ++k) return_velocity_if(wanted, t, tree_link_of(t, k));
+  store_root(wanted, t, (uint)ROOT_LINEAR_VELOCITY, load_root(t, (uint)ROOT_START));
+}
+
+/* The inertial forces at the velocities that the last round has found, which then return to those of the start. */
+SHARED void load_inertial_forces_of_round(const articulation *t, real h, uint round)
+{
   for (uint k = 0; k < t->most_links; ++k) {
     tree_link l = tree_link_of(t, k);
-    store_state(wanted & l.exists, t, l.k, (uint)STATE_JOINT_VELOCITY, load_work(t, l.k, (uint)WORK_START));
+    load_inertial_force(t, l, h);
+    if (round == 0u) note_velocity(t, l);
+    else return_velocity_if(l.exists, t, l);
   }
-  store_root(wanted, t, (uint)ROOT_LINEAR_VELOCITY, load_root(t, (uint)ROOT_START));
+  if (round == 0u) store_root(has_links(t), t, (uint)ROOT_START, load_root(t, (uint)ROOT_LINEAR_VELOCITY));
+  else store_root(has_links(t), t, (uint)ROOT_LINEAR_VELOCITY, load_root(t, (uint)ROOT_START));
+}
+
+SHARED void settle_and_move_links(const articulation *t)
+{
+  for (uint k = 0; k < t->most_links; ++k) {
+    tree_link l = tree_link_of(t, k);
+    settle_link(t, l);
+    move_link(t, l);
+  }
 }
 
 /* The velocities of all joints and links, after half of the inertial forces at the velocity that this leads to. */
 SHARED void first_half(const articulation *t, real h)
 {
-  note_velocities(t);
   for (uint round = 0; round < FREE_MOTION_ROUNDS; ++round) {
-    load_inertial_forces(t, R(0.5) * h);
-    return_velocities_if(has_links(t), t);
+    load_inertial_forces_of_round(t, R(0.5) * h, round);
     push_all_links(t);
-    settle_tree(t);
-    move_links(t);
+    settle_and_move_links(t);
   }
 }
 
@@ -79,14 +91,25 @@ SHARED void second_half(const articulation *t, real h)
   settle_tree(t);
 }
 
+/* The links where their joints are, after these have moved on if that is wanted. A walk over the links does all that
+ * needs no more than the parent, because it takes its time to come to a link rather than to compute there. */
+SHARED void place_tree(const articulation *t, real h, uint advances)
+{
+  for (uint k = 0; k < t->most_links; ++k) {
+    tree_link l = tree_link_of(t, k);
+    if (advances != 0u) advance_joint(t, l, h);
+    place_link(t, l, h);
+    move_link(t, l);
+    store_symmetric6(l.exists, t, l.k, inertia_of_link(t, l));
+  }
+}
+
 /* The links where their joints are, and what they answer to impulses there. */
 SHARED void prepare_tree(const articulation *t, real h)
 {
-  place_links(t, h);
-  move_links(t);
+  place_tree(t, h, 0u);
   factor_tree(t);
   invert_link_inertias(t);
-  clear_pending(t);
 }
 
 /* The centre of mass of a free tree moves straight, whatever the root does beside it. */
@@ -113,8 +136,9 @@ SHARED void move_tree_freely(const articulation *t, real h)
   mask fast = has_changed_energy(t, kept, LARGEST_CHANGE_IN_HALF);
   if (any_of(fast)) return_velocities_if(fast, t);
   vec3 way = scale(root_velocity(t), h); /* of the root; a difference of positions would depend on where the tree is */
-  advance_joints(t, h);
-  prepare_tree(t, h);
+  place_tree(t, h, 1u);
+  factor_tree(t);
+  invert_link_inertias(t);
   vec3 missed = way_missed_by_center(t, kept, way, h);
   move_root_by(t, missed);
   kept.momentum = force_at(kept.momentum, add(way, missed));

@@ -24,6 +24,7 @@ SHARED quat joint_rotation(tree_link l, vec4 position)
   return turn;
 }
 
+/* h: of the substep, of which drives.h knows why. The parent has its place. */
 SHARED void place_link(const articulation *t, tree_link l, real h)
 {
   vec4 frame_a = load_link(t, l.k, (uint)LINK_FRAME_A), frame_b = load_link(t, l.k, (uint)LINK_FRAME_B);
@@ -45,12 +46,6 @@ SHARED void place_link(const articulation *t, tree_link l, real h)
   store_work(l.exists, t, l.k, (uint)WORK_FRAME, choose4(l.is_ball, quat_to_vec4(a), extend(axis, R(0.0))));
 }
 
-/* h: of the substep, of which drives.h knows why. */
-SHARED void place_links(const articulation *t, real h)
-{
-  for (uint k = 0; k < t->most_links; ++k) place_link(t, tree_link_of(t, k), h);
-}
-
 SHARED vec3 joint_velocity_in_world(const articulation *t, tree_link l, vec4 frame)
 {
   return vector_of_numbers(l, frame, xyz(load_state(t, l.k, (uint)STATE_JOINT_VELOCITY)));
@@ -67,12 +62,10 @@ SHARED spatial_motion link_velocity(const articulation *t, tree_link l, placed_j
   return motion_at(at_b, j.to_center);
 }
 
-SHARED void move_links(const articulation *t)
+/* Of a link whose parent moves already. */
+SHARED void move_link(const articulation *t, tree_link l)
 {
-  for (uint k = 0; k < t->most_links; ++k) {
-    tree_link l = tree_link_of(t, k);
-    store_motion(l.exists, t, l.k, (uint)WORK_VELOCITY, link_velocity(t, l, load_placed_joint(t, l)));
-  }
+  store_motion(l.exists, t, l.k, (uint)WORK_VELOCITY, link_velocity(t, l, load_placed_joint(t, l)));
 }
 
 SHARED double_float3 root_position(const articulation *t)

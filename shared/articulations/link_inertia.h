@@ -61,7 +61,7 @@ SHARED symmetric6 followed_by_ball(const articulation *t, tree_link l, placed_jo
   return r;
 }
 
-/* After this, WORK_INERTIA has the inverse inertias at the centres of the links. */
+/* After this, WORK_INERTIA has the inverse inertias at the centres of the links, and nothing is pending. */
 SHARED void invert_link_inertias(const articulation *t)
 {
   for (uint k = 0; k < t->most_links; ++k) {
@@ -74,6 +74,7 @@ SHARED void invert_link_inertias(const articulation *t)
     if (any_of(l.is_ball)) w = choose_symmetric6(l.is_ball, followed_by_ball(t, l, j, w), w);
     w = symmetric6_at(w, j.to_center);
     store_symmetric6(l.exists & !l.is_free, t, l.k, w);
+    store_force(l.exists, t, l.k, (uint)WORK_PENDING, no_force());
   }
 }
 

@@ -51,17 +51,18 @@ SHARED spatial_force force_to_accelerate(const articulation *t, tree_link l, spa
 }
 
 /* Leaves in WORK_FORCE the impulses over h by which the links change their joints' velocities if nothing else pushes,
- * and no impulses of joints. */
+ * and no impulses of joints. Of a link whose parent has them. */
+SHARED void load_inertial_force(const articulation *t, tree_link l, real h)
+{
+  spatial_motion a =
+      link_acceleration(t, l, load_placed_joint(t, l), load_parent_motion(t, l, (uint)WORK_CHANGE), no_motion());
+  store_motion(l.exists, t, l.k, (uint)WORK_CHANGE, a);
+  store_force(l.exists, t, l.k, (uint)WORK_FORCE, scaled_force(force_to_accelerate(t, l, a), -h));
+  store_force(l.exists, t, l.k, (uint)WORK_PENDING, no_force());
+}
 SHARED void load_inertial_forces(const articulation *t, real h)
 {
-  for (uint k = 0; k < t->most_links; ++k) {
-    tree_link l = tree_link_of(t, k);
-    spatial_motion a =
-        link_acceleration(t, l, load_placed_joint(t, l), load_parent_motion(t, l, (uint)WORK_CHANGE), no_motion());
-    store_motion(l.exists, t, l.k, (uint)WORK_CHANGE, a);
-    store_force(l.exists, t, l.k, (uint)WORK_FORCE, scaled_force(force_to_accelerate(t, l, a), -h));
-    store_force(l.exists, t, l.k, (uint)WORK_PENDING, no_force());
-  }
+  for (uint k = 0; k < t->most_links; ++k) load_inertial_force(t, tree_link_of(t, k), h);
 }
 
 SHARED spatial_force outer_force(const articulation *t, tree_link l, vec3 gravity)

@@ -160,14 +160,6 @@ SHARED spatial_motion pending_change(const articulation *t, uint_lanes k, vec3 *
 }
 
 /* --- all links ------------------------------------------------------------------------------------------------ */
-SHARED void clear_pending(const articulation *t)
-{
-  for (uint k = 0; k < t->most_links; ++k) {
-    tree_link l = tree_link_of(t, k);
-    store_force(l.exists, t, l.k, (uint)WORK_PENDING, no_force());
-  }
-}
-
 /* The pending numbers of the joint's velocity. */
 SHARED vec3 change_in_numbers(tree_link l, placed_joint j, vec3 change)
 {

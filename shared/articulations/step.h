@@ -22,8 +22,7 @@ SHARED void begin_articulations_item(GLOBAL const Parameters *parameters, read_l
     store_uint(states.colors, TREE_COLOR_WORDS * (uint_lanes)i + word, (uint_lanes)0u);
   read_articulation(links, bodies, &t);
   prepare_tree(&t, parameters->substep);
-  write_velocities(links, &t, moved.velocity);
-  write_poses(links, bodies, &t, moved.delta, moved.orientation);
+  write_bodies(links, bodies, &t, moved);
 }
 
 /* Adds what pushes a link besides the gravity that all links have: the force on its body, and the share of gravity by
@@ -110,8 +109,7 @@ SHARED void move_articulations_item(GLOBAL const Parameters *parameters, read_li
   vec3 gravity = gravity_at(parameters, bodies.gravity, body_of_link(links, &t, (uint_lanes)0u));
   return_to_parabola_if(tree_falls_freely(links, body_mass, body_falls, &t), &t, gravity, parameters->substep);
   note_pushed_if(has_links(&t), &t, R(0.0));
-  write_velocities(links, &t, moved.velocity);
-  write_poses(links, bodies, &t, moved.delta, moved.orientation);
+  write_bodies(links, bodies, &t, moved);
 }
 
 #endif
