@@ -62,11 +62,14 @@ bool is_still_right(Broadphase broadphase, size_t bodies, const std::string &bac
   return (bodies <= few_on(backend, broadphase)) == (broadphase == Broadphase::brute_force);
 }
 
-void TreesTrial::note_step(bool with_trees, bool rebuilt)
+void TreesTrial::note_step(bool with_trees, bool rebuilt, bool crowded)
 {
-  if (pause_ > 0 && --pause_ == 0) since_rebuilt_ = quiet;
+  if (pause_ > 0 && (crowded || --pause_ == 0)) {
+    pause_ = 0;
+    since_rebuilt_ = quiet;
+  }
   if (!with_trees) return;
-  if (rebuilt && since_rebuilt_ < quiet) {
+  if (rebuilt && since_rebuilt_ < quiet && !crowded) {
     pause_ = next_pause_;
     next_pause_ = std::min(2 * next_pause_, longest_pause);
   }

@@ -38,15 +38,19 @@ TANDEM_API BroadphaseChoice choose_broadphase(const Scene &scene, size_t bodies,
 TANDEM_API bool is_still_right(Broadphase broadphase, size_t bodies, const std::string &backend);
 
 /* Whether trees pay on a CPU shows while they run: they save the search for bodies that stay in their boxes, and cost
- * twice a grid where all leave them. They are built anew when one body in sixteen has moved by its own size, and when
- * what they kept was dropped. Where that happens twice within `quiet` steps the grid takes over; trees are tried again
- * later, each time after twice as many steps. All follows from counts, which are the same on every backend. */
+ * twice a grid where all leave them and hardly any are near others, as in free fall. Where bodies crowd, a grid has
+ * many in each cell, and costs more than trees that are built anew all the time. Trees are built anew when one body in
+ * sixteen has moved by its own size, and when what they kept was dropped. Where that happens twice within `quiet` steps
+ * of bodies that do not crowd, the grid takes over; trees are tried again later, each time after twice as many steps,
+ * or when bodies crowd. All follows from counts, which are the same on every backend. */
 class TANDEM_API TreesTrial {
 public:
   static constexpr uint32_t quiet = 60, first_pause = 60, longest_pause = 3840; /* steps */
+  static constexpr uint64_t crowd = 4; /* pairs a body: spheres that fall side by side have 2, people in a heap 8 */
 
   bool pauses() const { return pause_ > 0; }
-  void note_step(bool with_trees, bool rebuilt);
+  /* crowded: there are more than `crowd` pairs a body. */
+  void note_step(bool with_trees, bool rebuilt, bool crowded);
 
 private:
   uint32_t pause_ = 0, next_pause_ = first_pause;
