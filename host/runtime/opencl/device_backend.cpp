@@ -139,7 +139,7 @@ public:
           fmt::format("kernel {} was launched on {} before prepare", row_of(launch.kernel).name, name_));
     BuiltKernel &built = current_->kernels[index_of(launch.kernel)];
     set_arguments(built, row_of(launch.kernel), launch, bound, counts);
-    const size_t group_size = group_size_for(built, launch.expected);
+    const size_t group_size = group_size_for(row_of(launch.kernel), built, launch.expected);
     const size_t global_size = group_count(row_of(launch.kernel).execution, launch.expected, group_size) * group_size;
     cl_event event = nullptr;
     const cl_int code = code_of(faults::Site::launch, [&] {
@@ -328,10 +328,22 @@ private:
     return context_.info.type == "GPU" && row.execution == Execution::item && gains;
   }
 
+  /* Items of trees of links are long and wait for memory, so a compute unit needs several groups of them, and warps
+   * that are not full gain more than they lose: with 8,192 trees on an H200 solve_articulations takes 0.87 ms in groups
+   * of 64 and 0.77 in groups of 16, move_articulations 0.61 and 0.56. */
+  size_t size_of_tree_groups(size_t size, uint32_t expected) const
+  {
+    constexpr size_t groups_of_unit = 4, smallest = 16;
+    while (size > smallest && expected < size * groups_of_unit * units_) size /= 2;
+    return size;
+  }
+
   /* The largest size that still gives every compute unit of the device a group. */
-  size_t group_size_for(const BuiltKernel &built, uint32_t expected) const
+  size_t group_size_for(const KernelRow &row, const BuiltKernel &built, uint32_t expected) const
   {
     size_t size = built.group_size;
+    if (!group_size_ && row.stage == Stage::articulations && context_.info.type == "GPU")
+      return size_of_tree_groups(size, expected);
     while (size * 2 <= built.widest_group && expected >= size * 2 * units_) size *= 2;
     return size;
   }
