@@ -12,7 +12,10 @@ void World::Implementation::note_batch(Recorder &recorder) const
 {
   recorder.note(Kernel::find_failed_bodies);
   recorder.note(Kernel::reset_worlds);
-  if (!scene.joints.empty()) recorder.note(Kernel::reset_joints);
+  if (!scene.joints.empty()) {
+    recorder.note(Kernel::reset_joints);
+    recorder.note(Kernel::scatter_reals); /* of controls */
+  }
   if (!scene.couplings.empty()) recorder.note(Kernel::reset_couplings);
   if (settings.events) recorder.note(Kernel::reset_touching);
   if (plan.forces) recorder.note(Kernel::reset_forces);

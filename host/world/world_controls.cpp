@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numeric>
 
 #include <fmt/format.h>
 
 #include <tandem/error.h>
 
+#include "host/pipeline/scene_counts.h"
 #include "host/runtime/parts.h"
 #include "host/scene/actuators.h"
 #include "host/scene/articulation_order.h"
@@ -111,17 +113,25 @@ uint32_t place_of_axis(const Joint &joint, uint32_t kind)
   return static_cast<uint32_t>(found - used.begin());
 }
 
+bool are_distinct(std::span<const uint32_t> worlds)
+{
+  return std::adjacent_find(worlds.begin(), worlds.end(), std::greater_equal<>{}) == worlds.end();
+}
+
+template <class Function> void for_each_in_parts(size_t items, size_t of_part, const Function &function)
+{
+  run_parts((items + of_part - 1) / of_part, PartFunction([&](size_t part) {
+              const size_t end = std::min(items, (part + 1) * of_part);
+              for (size_t i = part * of_part; i < end; ++i) function(i);
+            }));
+}
+
 /* Runs function(i) for the world at each place i of the list, many at the same time. A list that is not in order may
  * have a world twice, of which the later place counts; its worlds are taken one after another. */
 template <class Function> void for_each_world(std::span<const uint32_t> worlds, const Function &function)
 {
   constexpr size_t worlds_of_part = 256;
-  const bool are_distinct = std::adjacent_find(worlds.begin(), worlds.end(), std::greater_equal<>{}) == worlds.end();
-  const size_t of_part = are_distinct ? worlds_of_part : worlds.size();
-  run_parts((worlds.size() + of_part - 1) / of_part, PartFunction([&](size_t part) {
-              const size_t end = std::min(worlds.size(), (part + 1) * of_part);
-              for (size_t i = part * of_part; i < end; ++i) function(i);
-            }));
+  for_each_in_parts(worlds.size(), are_distinct(worlds) ? worlds_of_part : worlds.size(), function);
 }
 
 } // namespace
@@ -155,61 +165,53 @@ Worlds::Controls::Target Worlds::Controls::checked_target(const World::Implement
   return target_of(engine, joint, control);
 }
 
-/* The index of the rows in rows_, to which they are added. */
-uint32_t Worlds::Controls::rows_of(Buffer buffer, size_t first, size_t count)
-{
-  const auto found = std::find_if(rows_.begin(), rows_.end(),
-                                  [&](const Rows &rows) { return rows.buffer == buffer && rows.first == first; });
-  const auto index = static_cast<uint32_t>(found - rows_.begin());
-  if (found == rows_.end()) rows_.push_back({buffer, first, std::vector<float4>(count)});
-  return index;
-}
-
 Worlds::Controls::Target Worlds::Controls::target_of(const World::Implementation &engine, uint32_t joint,
                                                      const ControlledAxis &control)
 {
   const Joint &whole = engine.scene.joints[joint];
   JointAxis axis = axis_of(whole, control.axis);
-  Target target{joint, 0, 0, controlled_number(axis, control.what), 0, 0};
+  Target target{joint, Buffer::link_range, 0, controlled_number(axis, control.what), 0, 0};
   controlled_number(axis, control.what) = 0;
   const auto rows = row_of_axis(axis);
   target.damping = rows[1].y;
   target.rest = rows[0].w;
-  const size_t joints = engine.scene.joints.size();
+  size_t row = 0;
   if (engine.is_in_tree(joint) && !has_rows_besides_tree(whole)) {
     const TreePlace &place = engine.links.places[engine.links.of_joint[joint]];
-    target.rows = rows_of(Buffer::link_range, 0, engine.links.count);
-    target.row = static_cast<uint32_t>(place.row(1, engine.links.number_of_joint[joint], 0));
+    row = place.row(1, engine.links.number_of_joint[joint], 0);
   } else {
     const size_t plane = size_t{3} * place_of_axis(whole, kind_of_axis(whole, control.axis));
-    target.rows = rows_of(Buffer::joint_axis_row, plane * joints, joints);
-    target.row = engine.joint_order.place_of(joint);
+    target.buffer = Buffer::joint_axis_row;
+    row = plane * engine.scene.joints.size() + engine.joint_order.place_of(joint);
   }
+  target.place = static_cast<uint32_t>(4 * row + (control.what == Control::target_position ? 2 : 3));
   return target;
 }
 
-/* The rows as they are, and values with what other calls have set since. */
-void Worlds::Controls::read_back(World::Implementation &engine)
+/* Joints that came or went since have moved the rows; the values are those that other calls have set since. */
+void Worlds::Controls::find_targets_anew(World::Implementation &engine)
 {
-  const bool are_old = joints_number_ != engine.joints_number;
-  if (were_read_ && !are_old) return;
+  if (joints_number_ == engine.joints_number) return;
   std::vector<Target> targets;
-  for (size_t i = 0; are_old && i < targets_.size(); ++i)
+  for (size_t i = 0; i < targets_.size(); ++i)
     targets.push_back(checked_target(engine, targets_[i].joint, chosen_[i % count()],
                                      fmt::format("set_controls: control {} of world {}: ", i % count(), i / count())));
-  for (Rows &rows : rows_) rows.rows = engine.memory.read<float4>(rows.buffer, rows.rows.size(), rows.first);
-  if (are_old) targets_ = std::move(targets);
+  targets_ = std::move(targets);
+  of_all_.clear();
+  has_places_of_all_ = false;
   joints_number_ = engine.joints_number;
-  were_read_ = true;
 }
 
 /* As row_of_axis has it. */
-void Worlds::Controls::write_row(const ControlledAxis &control, const Target &target)
+float Worlds::Controls::number_written(size_t target) const
 {
-  float4 &row = rows_[target.rows].rows[target.row];
-  if (control.what == Control::target_position) row.z = target.value;
-  else if (control.what == Control::force) row.w = target.rest + target.value / target.damping;
-  else row.w = target.damping > 0 ? target.value + target.rest : target.value;
+  const Target &one = targets_[target];
+  switch (chosen_[target % count()].what) {
+  case Control::target_position: return one.value;
+  case Control::force: return one.rest + one.value / one.damping;
+  case Control::target_velocity: break;
+  }
+  return one.damping > 0 ? one.value + one.rest : one.value;
 }
 
 /* The number of the axis for which the value stands. */
@@ -233,34 +235,98 @@ void Worlds::Controls::check(uint32_t world, const float *values) const
   }
 }
 
-/* A force and a target velocity of one axis have the bits of row_of_axis, whichever of them is written last. */
-void Worlds::Controls::write_rows(uint32_t world, const float *values)
+/* A force and a target velocity of one axis have the bits of row_of_axis, whichever of them is written. */
+void Worlds::Controls::keep(uint32_t world, const float *values)
 {
   Target *targets = &targets_[world * count()];
   for (size_t k = 0; k < count(); ++k) {
     Target &target = targets[k];
     target.value = number_of(k, values[k]);
-    write_row(chosen_[k], target);
     if (partner_[k] == no_partner) continue;
     const bool is_force = chosen_[k].what == Control::force;
     targets[partner_[k]].rest = is_force ? target.value / target.damping : target.value;
   }
 }
 
+/* Of two partners the first one does, so that no number is written twice at the same time. */
+bool Worlds::Controls::writes(size_t control) const
+{
+  return partner_[control] == no_partner || control < partner_[control];
+}
+
+std::vector<Worlds::Controls::Written> Worlds::Controls::written_of(std::span<const uint32_t> worlds) const
+{
+  std::vector<uint32_t> distinct(worlds.begin(), worlds.end());
+  std::sort(distinct.begin(), distinct.end());
+  distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
+  std::vector<Written> all = {{Buffer::link_range, {}, {}}, {Buffer::joint_axis_row, {}, {}}};
+  for (const uint32_t world : distinct)
+    for (size_t k = 0; k < count(); ++k) {
+      const size_t target = world * count() + k;
+      if (!writes(k)) continue;
+      Written &written = all[targets_[target].buffer == Buffer::link_range ? 0 : 1];
+      written.targets.push_back(static_cast<uint32_t>(target));
+      written.places.push_back(targets_[target].place);
+    }
+  std::erase_if(all, [](const Written &written) { return written.targets.empty(); });
+  return all;
+}
+
+const std::vector<Worlds::Controls::Written> &Worlds::Controls::written_of_all()
+{
+  if (!of_all_.empty()) return of_all_;
+  std::vector<uint32_t> worlds(targets_.size() / count());
+  std::iota(worlds.begin(), worlds.end(), 0u);
+  of_all_ = written_of(worlds);
+  return of_all_;
+}
+
+/* So that nothing has changed if there is none. */
+void Worlds::Controls::make_room(Memory &memory, const Written &written)
+{
+  for (const Buffer buffer : {Buffer::control_number, Buffer::control_place}) {
+    memory.grow(buffer, written.targets.size() * sizeof(float));
+    memory.prepare_upload(buffer);
+  }
+  memory.prepare_upload(written.buffer);
+}
+
+void Worlds::Controls::write(World::Implementation &engine, const Written &written)
+{
+  std::vector<float> numbers(written.targets.size());
+  for_each_in_parts(numbers.size(), 4096, [&](size_t i) { numbers[i] = number_written(written.targets[i]); });
+  Memory &memory = engine.memory;
+  const size_t bytes = numbers.size() * sizeof(float);
+  memory.upload(Buffer::control_number, numbers.data(), bytes);
+  if (!has_places_of_all_ || &written != of_all_.data())
+    memory.upload(Buffer::control_place, written.places.data(), bytes);
+  has_places_of_all_ = of_all_.size() == 1 && &written == of_all_.data();
+  const auto items = static_cast<uint32_t>(numbers.size());
+  set_length(memory, items);
+  engine.launcher.launch({Kernel::scatter_reals,
+                          {Buffer::control_number, Buffer::control_place, written.buffer},
+                          {1, 0, 1},
+                          COUNT_ZERO,
+                          COUNT_LENGTH,
+                          items});
+}
+
 void Worlds::Controls::set(World::Implementation &engine, std::span<const uint32_t> worlds,
                            std::span<const float> values)
 {
   if (values.empty()) return;
-  read_back(engine);
+  find_targets_anew(engine);
   for_each_world(worlds, [&](size_t i) { check(worlds[i], &values[i * count()]); });
   engine.settle();
   engine.buffers.make_ready(engine.sizes());
-  for (const Rows &rows : rows_) engine.memory.prepare_upload(rows.buffer);
-  for_each_world(worlds, [&](size_t i) { write_rows(worlds[i], &values[i * count()]); });
+  const bool is_of_all = worlds.size() * count() == targets_.size() && are_distinct(worlds);
+  const std::vector<Written> of_some = is_of_all ? std::vector<Written>{} : written_of(worlds);
+  const std::vector<Written> &all = is_of_all ? written_of_all() : of_some;
+  for (const Written &written : all) make_room(engine.memory, written);
+  for_each_world(worlds, [&](size_t i) { keep(worlds[i], &values[i * count()]); });
   ++engine.state;
   scene_is_behind_ = true;
-  for (const Rows &rows : rows_)
-    engine.memory.upload(rows.buffer, rows.rows.data(), rows.rows.size() * sizeof(float4), rows.first * sizeof(float4));
+  for (const Written &written : all) write(engine, written);
 }
 
 void Worlds::Controls::write_scene(Scene &scene)

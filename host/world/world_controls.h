@@ -36,38 +36,43 @@ public:
   void write_scene(Scene &scene);
 
 private:
-  /* Rows of a buffer that follow one another, and what they will be. */
-  struct Rows {
-    Buffer buffer;
-    size_t first; /* element of the buffer */
-    std::vector<float4> rows;
-  };
   /* A control of a world: what it writes, and where. */
   struct Target {
-    uint32_t joint;     /* of the scene of all worlds */
-    uint32_t rows, row; /* of rows_ */
+    uint32_t joint; /* of the scene of all worlds */
+    Buffer buffer;
+    uint32_t place; /* in the buffer: the number of a real */
     float value;
     float damping; /* of an axis with a force */
     float rest;    /* of the speed to which the damper pulls: what the other of force and target velocity makes */
   };
+  /* Numbers of one buffer. */
+  struct Written {
+    Buffer buffer;
+    std::vector<uint32_t> targets, places;
+  };
   float number_of(size_t control, float value) const;
   /* values: of the controls of that world. */
   void check(uint32_t world, const float *values) const;
-  void write_rows(uint32_t world, const float *values);
+  void keep(uint32_t world, const float *values);
+  bool writes(size_t control) const;
+  float number_written(size_t target) const;
+  std::vector<Written> written_of(std::span<const uint32_t> worlds) const;
+  const std::vector<Written> &written_of_all();
+  static void make_room(Memory &memory, const Written &written);
+  void write(World::Implementation &engine, const Written &written);
   Target checked_target(const World::Implementation &engine, uint32_t joint, const ControlledAxis &control,
                         const std::string &where);
   Target target_of(const World::Implementation &engine, uint32_t joint, const ControlledAxis &control);
-  uint32_t rows_of(Buffer buffer, size_t first, size_t count);
-  void read_back(World::Implementation &engine);
-  void write_row(const ControlledAxis &control, const Target &target);
+  void find_targets_anew(World::Implementation &engine);
 
   std::vector<ControlledAxis> chosen_;
   std::vector<size_t> partner_;     /* of each control: the other one of the speed to which the damper pulls, or none */
   std::vector<Actuator> actuators_; /* of each control; none if axes were chosen */
   std::vector<Target> targets_;     /* [world, control] */
-  std::vector<Rows> rows_;
-  uint64_t joints_number_ = 0; /* World::Implementation::joints_number when the rows were read */
-  bool were_read_ = false, scene_is_behind_ = false;
+  std::vector<Written> of_all_;     /* made when it is first asked for */
+  bool has_places_of_all_ = false;  /* whether control_place has those of the only list of of_all_ */
+  uint64_t joints_number_ = 0;      /* World::Implementation::joints_number when the targets were found */
+  bool scene_is_behind_ = false;
 };
 
 } // namespace tandem
