@@ -294,7 +294,7 @@ void World::Implementation::accept()
   if (plan.drowsy) plan.island_rounds = std::max<uint32_t>(plan.known[COUNT_ISLAND_ROUNDS] + 2, 4);
   plan.drowsy = plan.known[COUNT_DROWSY] > 0;
   trees_trial.note_step(settings.broadphase == Broadphase::trees, plan.known[COUNT_INSERTED] > 0,
-                        cached_pairs > TreesTrial::crowd * special.awake);
+                        cached_pairs / std::max(1.0, double(special.awake)));
   note_start(plan.substeps, plan.known[COUNT_BRACED_LAYERS]);
   settle_substeps(plan.substeps, plan.known[COUNT_LOAD_RATE], settings);
   note_sorted();

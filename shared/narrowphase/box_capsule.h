@@ -189,7 +189,7 @@ typedef struct {
   mask along_x, along_y, along_z; /* the axes along which the feature extends */
   mask has_length;                /* it is a face, or an edge that is nearly parallel to the segment */
   mask is_straight;               /* it is a face, and the contact has its normal */
-  vec3 plane; /* the normal of the face; beside an edge, that of the contact. The box lies below this plane */
+  vec3 plane; /* the normal of the face; beside an edge, what of the contact's is across it. The box lies below */
 } box_feature;
 
 /* Whether the segment is, in part, between the planes of two opposite faces. */
@@ -198,32 +198,39 @@ SHARED mask passes_between(real extent, real middle, real to_end)
   return magnitude(middle) - magnitude(to_end) < extent;
 }
 
-SHARED mask is_parallel_to(vec3 to_end, vec3 axis)
+/* Whether a capsule stays beside an edge: it strays from it by little of its length and of its radius. */
+SHARED mask is_along(const boxed_segment *s, real radius, vec3 normal_part, vec3 axis)
 {
-  return length_squared(cross3(axis, to_end)) <= CAPSULES_PARALLEL * CAPSULES_PARALLEL * length_squared(to_end);
+  real strays = length_of(cross3(axis, s->to_end));
+  mask beside = length_squared(normal_part) <= CAPSULES_PARALLEL * CAPSULES_PARALLEL;
+  return beside & (strays <= CAPSULES_PARALLEL * length_of(s->to_end)) & (strays <= R(0.25) * radius);
 }
 
-SHARED box_feature feature_beside(const boxed_segment *s, vec3 normal)
+SHARED box_feature feature_beside(const boxed_segment *s, real radius, vec3 normal)
 {
   vec3 size = absolute(normal);
-  real one = R(1.0), zero = R(0.0), small = R(1e-3);
+  real one = R(1.0), zero = R(0.0);
   mask in_x = passes_between(s->extent.x, s->middle.x, s->to_end.x),
        in_y = passes_between(s->extent.y, s->middle.y, s->to_end.y),
        in_z = passes_between(s->extent.z, s->middle.z, s->to_end.z);
   mask face_x = (size.x >= ABOVE_FACE) & in_y & in_z, face_y = (size.y >= ABOVE_FACE) & in_x & in_z,
        face_z = (size.z >= ABOVE_FACE) & in_x & in_y;
   mask is_face = face_x | face_y | face_z;
-  mask edge_x = (!is_face) & (size.x < small) & is_parallel_to(s->to_end, make_vec3(one, zero, zero)),
-       edge_y = (!is_face) & (size.y < small) & is_parallel_to(s->to_end, make_vec3(zero, one, zero)),
-       edge_z = (!is_face) & (size.z < small) & is_parallel_to(s->to_end, make_vec3(zero, zero, one));
+  vec3 along_x = make_vec3(one, zero, zero), along_y = make_vec3(zero, one, zero), along_z = make_vec3(zero, zero, one);
+  mask edge_x = (!is_face) & is_along(s, radius, multiply(normal, along_x), along_x),
+       edge_y = (!is_face) & is_along(s, radius, multiply(normal, along_y), along_y),
+       edge_z = (!is_face) & is_along(s, radius, multiply(normal, along_z), along_z);
+  mask is_edge = edge_x | edge_y | edge_z;
   vec3 of_face =
       multiply(axis_where(face_x, face_y, face_z), make_vec3(sign_of(normal.x), sign_of(normal.y), sign_of(normal.z)));
+  vec3 of_edge = multiply(normal, axis_where(!edge_x, !edge_y, !edge_z));
+  of_edge = choose3(is_edge, scale(of_edge, one / choose(is_edge, length_of(of_edge), one)), normal);
   box_feature f = {(is_face & !face_x) | edge_x,
                    (is_face & !face_y) | edge_y,
                    (is_face & !face_z) | edge_z,
-                   is_face | edge_x | edge_y | edge_z,
+                   is_face | is_edge,
                    is_face & (dot3(of_face, normal) == R(1.0)),
-                   choose3(is_face, of_face, normal)};
+                   choose3(is_face, of_face, of_edge)};
   return f;
 }
 
@@ -247,13 +254,15 @@ typedef struct {
   mask apart; /* the segment is outside */
 } box_touch;
 
-SHARED box_touch touch_of_segment(const boxed_segment *s, real size)
+SHARED box_touch touch_of_segment(const boxed_segment *s)
 {
   box_touch t;
   t.place = nearest_place(s);
   vec3 away = away_from_box(s, t.place);
   t.height = length_of(away);
-  t.apart = t.height > R(8.0) * ROUNDING * size;
+  /* Of a large box, only the sizes along `away` are what its coordinates are rounded by. */
+  real rounded = length_of(s->to_end) * t.height + dot3(absolute(away), s->extent);
+  t.apart = t.height * t.height > R(8.0) * ROUNDING * rounded;
   t.normal = scale(away, R(1.0) / choose(t.apart, t.height, (real)R(1.0)));
   if (any_of(!t.apart)) {
     way_out way = way_out_of_box(s);
@@ -278,9 +287,9 @@ SHARED segment_part part_beside(const boxed_segment *s, const box_touch *t, cons
  * it beside the face. */
 SHARED manifold contact_in_box(const boxed_segment *s, real radius)
 {
-  real size = length_of(s->to_end) + length_of(s->extent) + radius;
-  box_touch t = touch_of_segment(s, size);
-  box_feature f = feature_beside(s, t.normal);
+  real length = length_of(s->to_end);
+  box_touch t = touch_of_segment(s);
+  box_feature f = feature_beside(s, radius, t.normal);
   segment_part part = part_beside(s, &t, &f);
   mask within = f.has_length & (!t.apart) & (part.enter <= part.leave);
   t.place = choose(within, clamped(t.place, part.enter, part.leave), t.place);
@@ -289,9 +298,13 @@ SHARED manifold contact_in_box(const boxed_segment *s, real radius)
 
   vec4 first = point_above_feature(s, t.normal, radius, f.plane, part.enter),
        last = point_above_feature(s, t.normal, radius, f.plane, part.leave);
-  mask complete = minimum(first.w, last.w) <= t.height - radius + size * R(1e-4);
-  mask two = m.kept[0] & f.has_length & faces_side(s->to_end, t.normal) & (part.leave - part.enter > R(1e-3)) &
-             ((t.apart & complete) | ((!t.apart) & f.is_straight));
+  /* The two have to touch as the nearest point does, but for rounding; of a segment that has entered the box, they may
+   * be as much less deep as it leans. */
+  real lacks = minimum(first.w, last.w) - (t.height - radius),
+       rounded = R(8.0) * ROUNDING * dot3(absolute(t.normal), s->extent) + R(1e-4) * (length + radius),
+       leans = choose(t.apart, (real)R(0.0), R(2.0) * magnitude(dot3(s->to_end, t.normal)));
+  mask two = m.kept[0] & f.has_length & (t.apart | f.is_straight) & faces_side(s->to_end, t.normal) &
+             ((part.leave - part.enter) * length > R(1e-3) * radius) & (lacks <= rounded + leans);
   m.point[0] = choose4(two, first, m.point[0]);
   m.point[1] = choose4(two, last, m.point[1]);
   m.kept[1] = two;

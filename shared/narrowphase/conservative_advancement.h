@@ -90,7 +90,8 @@ SHARED real free_beside(const moving_convex *viewer, const moving_convex *other,
   return free_by_chord(gap, gap_then, span, acceleration, input);
 }
 
-/* Measures gap and normal at a time. The search starts from the normal so far, or from the centres. */
+/* Measures gap and normal at a time; what counts as touching is known for sure. The search starts from the normal so
+ * far, or from the centres. */
 SHARED void measure_gap(impact *met, const moving_convex *a, const moving_convex *b, toi_input input, real time,
                         mask from_normal)
 {
@@ -99,7 +100,7 @@ SHARED void measure_gap(impact *met, const moving_convex *a, const moving_convex
   real radii = core_radius(&shape_a) + core_radius(&shape_b);
   vec3 guess = from_normal ? rotate_back(pair.axes, pair.swapped ? met->normal : negate(met->normal))
                            : subtract(pair.a.center, pair.b.center);
-  gap_wanted wanted = {input.fastest * (input.horizon - time) + radii, input.roughly, radii};
+  gap_wanted wanted = {input.fastest * (input.horizon - time) + input.touching + radii, input.roughly, radii};
   gjk_result near = closest_points_from(&pair.a, &pair.b, wanted, guess);
   vec3 along = rotate(pair.axes, near.contact.normal);
   met->normal = pair.swapped ? negate(along) : along;

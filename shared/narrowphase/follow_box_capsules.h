@@ -30,7 +30,7 @@ SHARED gap_of_capsule gap_after(const moving_box_and_capsule *p, real time)
 {
   box_and_capsule then = box_and_capsule_after(&p->pair, p->moves, time);
   boxed_segment s = segment_in_box(&then);
-  box_touch t = touch_of_segment(&s, length_of(s.to_end) + length_of(s.extent) + then.rod.radius);
+  box_touch t = touch_of_segment(&s);
   gap_of_capsule g = {rotate(then.rotation, t.normal), t.height - then.rod.radius};
   return g;
 }

@@ -62,14 +62,14 @@ bool is_still_right(Broadphase broadphase, size_t bodies, const std::string &bac
   return (bodies <= few_on(backend, broadphase)) == (broadphase == Broadphase::brute_force);
 }
 
-void TreesTrial::note_step(bool with_trees, bool rebuilt, bool crowded)
+void TreesTrial::note_step(bool with_trees, bool rebuilt, double pairs_of_body)
 {
-  if (pause_ > 0 && (crowded || --pause_ == 0)) {
+  if (pause_ > 0 && (pairs_of_body > dense_crowd || --pause_ == 0)) {
     pause_ = 0;
     since_rebuilt_ = quiet;
   }
   if (!with_trees) return;
-  if (rebuilt && since_rebuilt_ < quiet && !crowded) {
+  if (rebuilt && since_rebuilt_ < quiet && pairs_of_body <= crowd) {
     pause_ = next_pause_;
     next_pause_ = std::min(2 * next_pause_, longest_pause);
   }

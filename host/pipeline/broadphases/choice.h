@@ -46,11 +46,11 @@ TANDEM_API bool is_still_right(Broadphase broadphase, size_t bodies, const std::
 class TANDEM_API TreesTrial {
 public:
   static constexpr uint32_t quiet = 60, first_pause = 60, longest_pause = 3840; /* steps */
-  static constexpr uint64_t crowd = 4; /* pairs a body: spheres that fall side by side have 2, people in a heap 8 */
+  /* Pairs a body: spheres that fall side by side have 2 to 5, people in a heap 8. */
+  static constexpr double crowd = 6, dense_crowd = 7;
 
   bool pauses() const { return pause_ > 0; }
-  /* crowded: there are more than `crowd` pairs a body. */
-  void note_step(bool with_trees, bool rebuilt, bool crowded);
+  void note_step(bool with_trees, bool rebuilt, double pairs_of_body);
 
 private:
   uint32_t pause_ = 0, next_pause_ = first_pause;

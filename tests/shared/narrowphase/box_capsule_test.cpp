@@ -231,6 +231,59 @@ TEST_CASE("box and capsule: along an edge it has two contacts, across an edge an
   CHECK(hanging.normal.z() < -0.15);
 }
 
+TEST_CASE("box and capsule: one that leans a little along an edge keeps both contacts")
+{
+  TestBody box; /* 2 m wide */
+  for (const double sag : {-0.012, -0.003, -0.0011, -0.0009, 0.0, 0.0009, 0.0011, 0.003, 0.012}) {
+    PairScene scene;
+    const Vector beside = Vector(0, 1, 1).normalized();
+    scene.add(box, lying_capsule(0.25, 0.6, Vector(0.7, 1, 1) + 0.245 * beside, Vector(1, sag, sag)));
+    const Contact contact = scene.contact(scene.run({Kernel::collide_box_capsule}), 0);
+    CAPTURE(sag);
+    REQUIRE(contact.points.size() == 2);
+    for (const Point &point : contact.points) {
+      const Vector on_edge = Vector(point.offset.x(), 1, 1), axis = Vector(1, sag, sag).normalized();
+      const Vector from = on_edge - (Vector(0.7, 1, 1) + 0.245 * beside);
+      const double distance = (from - from.dot(axis) * axis).norm();
+      CHECK(point.separation == Approx(distance - 0.25).margin(1e-3));
+    }
+  }
+}
+
+TEST_CASE("box and capsule: a large floor is no less exact than a small one")
+{
+  Random random(35);
+  for (const double size : {10.0, 100.0, 1000.0}) {
+    PairScene scene;
+    while (scene.size() < 4000) {
+      TestBody floor;
+      floor.size = Eigen::Vector3f(float(size), 0.5f, float(size));
+      const Vector axis =
+          Vector(random.below(2) ? random.logarithmic(1e-5, 1) : 0, random.uniform(-0.5, 0.5), 1).normalized();
+      const double half = 0.4, edge = random.below(2) ? size : random.uniform(-size, size);
+      const double height = 0.5 + half * std::abs(axis.y()) + 0.05 + random.uniform(-0.04, 0.01);
+      scene.add(floor,
+                lying_capsule(
+                    0.05, half,
+                    {edge + random.uniform(-1, 1) * half * axis.x(), height, random.uniform(-0.9, 0.9) * size}, axis));
+    }
+    const Outputs outputs = scene.run({Kernel::collide_box_capsule});
+    double worst = 0;
+    size_t near = 0;
+    for (size_t pair = 0; pair < scene.size(); ++pair) {
+      const double separation = separation_from_box(scene.a(pair), scene.b(pair));
+      double least = 1e30;
+      for (const Point &point : scene.contact(outputs, pair).points) least = std::min(least, point.separation);
+      if (separation > double(scene.parameters.speculative_distance) - 1e-4) continue; /* beside the floor */
+      ++near;
+      worst = std::max(worst, std::abs(least - separation));
+    }
+    CAPTURE(size);
+    CHECK(near > scene.size() / 2);
+    CHECK(worst < 6e-5 + 5e-7 * size); /* of a radius of 5 cm; two points may be less deep than one by 1e-4 of it */
+  }
+}
+
 TEST_CASE("box and capsule: in motion, contacts of the moment at which they touch, and none where they pass")
 {
   Random random(33);

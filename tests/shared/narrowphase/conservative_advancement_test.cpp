@@ -175,3 +175,35 @@ TEST_CASE("time of impact: shapes that move and turn are apart before it, and to
   CHECK(hits > 700);
   CHECK(misses > 700);
 }
+
+/* A distance query may end at any gap that is larger than what it was asked for, which must not count as touching. */
+TEST_CASE("time of impact: what touches at the end of its motion does, and what is apart then does not")
+{
+  ShapeMaker maker(5);
+  size_t apart = 0, touching = 0;
+  for (int k = 0; k < 100000; ++k) {
+    const Shape a = maker.any(0.1, 1);
+    Shape b = maker.any(0.1, 1);
+    ShapeMaker::place(a, b, maker.random.direction(), maker.random.uniform(-0.1, 0.1));
+    const convex record_a = a.record(), record_b = b.record();
+    const moving_convex moving_a = moving_convex_of(&record_a, none, none, none, 0),
+                        moving_b = moving_convex_of(&record_b, record_b.center, none, none, 0);
+    toi_input input = toi_input_of(real(1e-6), 1, minimum(least_size(&record_a), least_size(&record_b)),
+                                   bounding_radius_of(&record_a) + bounding_radius_of(&record_b));
+    input.roughly = ROUGHLY;
+    const convex_pair pair = pair_of(&record_a, &record_b);
+    const gjk_result near = closest_points(&pair.a, &pair.b, R(1e30));
+    const double gap = double{near.overlapping ? 0 : near.contact.gap} - double{core_radius(&record_a)} -
+                       double{core_radius(&record_b)};
+    const double touches = double{input.touching}, rounding = 1e-5 * (a.radius() + b.radius());
+    if (std::abs(gap - touches) < 0.2 * touches + rounding) continue;
+    (gap < touches ? touching : apart) += 1;
+    const bool found = touches_at_end(&moving_a, &moving_b, input) != 0;
+    if (found != (gap < touches)) {
+      CAPTURE(k, gap, touches, a.kind, b.kind);
+      CHECK(found == (gap < touches));
+    }
+  }
+  CHECK(apart > 20000);
+  CHECK(touching > 5000);
+}
