@@ -6,9 +6,9 @@
  *     +-----------------------+      parallel; elsewhere the nearest point is the only one.
  *
  * Along the segment, the squared distance from the box is convex, and its slope consists of straight pieces that end
- * where the segment passes the plane of a face. So the nearest point lies between two neighbours among six places, and
- * no item has another number of steps than the others. If the segment enters the box, the least depth along the faces'
- * normals and along those that cross an edge and the segment tells the way out.
+ * where the segment passes the plane of a face. So the nearest point lies between two neighbours among the ends and six
+ * places, and no item has another number of steps than the others. If the segment enters the box, the least depth along
+ * the faces' normals and along those that cross an edge and the segment tells the way out.
  *
  * Pairs that may pass each other within the step are left to follow_box_capsules.h.
  */
@@ -87,11 +87,6 @@ SHARED real nearest_place(const boxed_segment *s)
   return choose(from_end & !from_start, (real)R(1.0), place);
 }
 
-/* The axes along which the nearest point of the box is not on its border: two of a face, one of an edge. */
-typedef struct {
-  mask x, y, z;
-} inner_axes;
-
 SHARED vec3 axis_where(mask x, mask y, mask z)
 {
   real one = R(1.0), zero = R(0.0);
@@ -103,9 +98,10 @@ SHARED vec3 axis_where(mask x, mask y, mask z)
 SHARED vec3 away_from_box(const boxed_segment *s, real place)
 {
   vec3 p = point_at_place(s, place), away = subtract(p, nearest_in_box(p, s->extent));
-  inner_axes in = {magnitude(p.x) < s->extent.x, magnitude(p.y) < s->extent.y, magnitude(p.z) < s->extent.z};
-  mask beside = magnitude(place) < R(1.0), of_corner = beside & !(in.x | in.y | in.z);
-  vec3 edge = axis_where(in.x & !(in.y | in.z), in.y & !(in.x | in.z), in.z & !(in.x | in.y));
+  /* Along these axes the nearest point is not on the border of the box: along two on a face, along one on an edge. */
+  mask in_x = magnitude(p.x) < s->extent.x, in_y = magnitude(p.y) < s->extent.y, in_z = magnitude(p.z) < s->extent.z;
+  mask beside = magnitude(place) < R(1.0), of_corner = beside & !(in_x | in_y | in_z);
+  vec3 edge = axis_where(in_x & !(in_y | in_z), in_y & !(in_x | in_z), in_z & !(in_x | in_y));
   vec3 across = cross3(edge, s->to_end);
   real area = length_squared(across);
   mask crossing = beside & (area > SEGMENTS_CROSS * length_squared(s->to_end));

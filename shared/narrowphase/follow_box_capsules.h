@@ -46,9 +46,8 @@ SHARED real gap_of_capsule_along(const box_and_capsule *pair, vec3 outward)
 SHARED real free_beside_box_or_capsule(const moving_box_and_capsule *p, vec3 turning, vec3 turning_other,
                                        real other_radius, gap_of_capsule now, advancement at)
 {
-  real speed = length_of(subtract(p->moves.b.linear, p->moves.a.linear)),
-       distance = length_of(p->pair.rod.pivot) + speed * p->input.horizon;
-  real acceleration = acceleration_seen(length_of(turning), distance, speed, length_of(turning_other), other_radius);
+  real acceleration =
+      acceleration_beside(p->moves, p->pair.rod.pivot, p->input.horizon, turning, turning_other, other_radius);
   real span = span_of(at, now.gap, acceleration, p->input);
   box_and_capsule then = box_and_capsule_after(&p->pair, p->moves, at.time + span);
   real gap_then = gap_of_capsule_along(&then, rotate(turn_within(turning, span), now.outward));

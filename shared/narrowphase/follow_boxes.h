@@ -16,11 +16,9 @@
  * sharp here, because rounded ones would not meet. The axis turns with the box whose face it is normal to. */
 SHARED advancement impact_of_boxes(mask reached, box_pair start, real slop, pair_motion moves, toi_input input)
 {
-  real turning_a = length_of(moves.a.angular), turning_b = length_of(moves.b.angular);
-  real speed = length_of(subtract(moves.a.linear, moves.b.linear)),
-       distance = length_of(start.offset) + speed * input.horizon;
-  real seen_by_a = acceleration_seen(turning_a, distance, speed, turning_b, moves.radius_b);
-  real seen_by_b = acceleration_seen(turning_b, distance, speed, turning_a, moves.radius_a);
+  vec3 turning_a = moves.a.angular, turning_b = moves.b.angular;
+  real seen_by_a = acceleration_beside(moves, start.offset, input.horizon, turning_a, turning_b, moves.radius_b);
+  real seen_by_b = acceleration_beside(moves, start.offset, input.horizon, turning_b, turning_a, moves.radius_a);
   advancement at = start_advancement(reached);
   for (uint round = 0u; round < ADVANCEMENT_ROUNDS; ++round) {
     box_pair then = boxes_after(start, moves, at.time),

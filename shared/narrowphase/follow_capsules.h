@@ -17,9 +17,8 @@
 SHARED real free_beside_capsule(capsule_pair start, pair_motion moves, vec3 turning, vec3 turning_other,
                                 real other_radius, vec3 normal, real gap, advancement at, toi_input input)
 {
-  vec3 apart = subtract(start.b.pivot, start.a.pivot);
-  real speed = length_of(subtract(moves.b.linear, moves.a.linear)), distance = length_of(apart) + speed * input.horizon;
-  real acceleration = acceleration_seen(length_of(turning), distance, speed, length_of(turning_other), other_radius);
+  real acceleration = acceleration_beside(moves, subtract(start.b.pivot, start.a.pivot), input.horizon, turning,
+                                          turning_other, other_radius);
   real span = span_of(at, gap, acceleration, input);
   real gap_then =
       gap_of_capsules_along(capsules_after(start, moves, at.time + span), rotate(turn_within(turning, span), normal));

@@ -110,6 +110,14 @@ SHARED real acceleration_seen(real turning_viewer, real distance, real speed, re
          turning * turning * radius;
 }
 
+/* The same of a pair, up to the horizon. offset: between the centres at the start. viewer, other: how the two bodies
+ * turn; radius: of the other one. */
+SHARED real acceleration_beside(pair_motion m, vec3 offset, real horizon, vec3 viewer, vec3 other, real radius)
+{
+  real speed = length_of(subtract(m.b.linear, m.a.linear)), distance = length_of(offset) + speed * horizon;
+  return acceleration_seen(length_of(viewer), distance, speed, length_of(other), radius);
+}
+
 /* The centre of b seen from that of a after a time. */
 SHARED vec3 offset_after(vec3 offset, pair_motion m, real time)
 {
