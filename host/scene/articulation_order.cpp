@@ -163,13 +163,25 @@ private:
     }
   }
 
-  /* Links go on from those that there are, until no joint is left that does. */
+  /* From each link on through its joints, to all that is beyond the one before the next. */
   void grow()
   {
-    for (size_t k = 0; k < links_.size(); ++k) {
-      const uint32_t body = links_[k].link.body;
-      for (const size_t n : of_body_[body])
-        if (!used_[n]) add(n, scene_.joints[articulation_.joints[n]].body_b == body, uint32_t(k));
+    struct Visit {
+      uint32_t link;
+      size_t next; /* of the joints of its body */
+    };
+    std::vector<Visit> way{{0, 0}};
+    while (!way.empty()) {
+      const uint32_t link = way.back().link, body = links_[link].link.body;
+      const std::vector<size_t> &joints = of_body_[body];
+      size_t &next = way.back().next;
+      while (next < joints.size() && used_[joints[next]]) ++next;
+      if (next == joints.size()) {
+        way.pop_back();
+        continue;
+      }
+      add(joints[next], scene_.joints[articulation_.joints[joints[next]]].body_b == body, link);
+      way.push_back({uint32_t(links_.size() - 1), 0});
     }
   }
 

@@ -29,7 +29,8 @@ bool has_rows_besides_tree(const Joint &joint);
 /* The axis of a joint that a tree drives, limits and brakes. */
 JointAxis axis_of_tree(const Joint &joint);
 
-/* Links of equal distance from the root stand in the order of Articulation::joints. */
+/* After each link come those beyond the first of its joints, as Articulation::joints has them, then those beyond the
+ * second, and so on: the way of a sweep (shared/articulations/sweep.h). */
 std::vector<OrderedLink> ordered_links_of(const Scene &scene, const Articulation &articulation,
                                           const std::string &where);
 

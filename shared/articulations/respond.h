@@ -102,29 +102,23 @@ SHARED spatial_motion link_change(const articulation *t, tree_link l, spatial_mo
 
 /* --- one link ------------------------------------------------------------------------------------------------- */
 /* The joints towards the root take their shares; a joint whose parent is the ground keeps the rest from it. */
-SHARED void push_link_if(mask wanted, const articulation *t, uint_lanes k, spatial_force at_center, vec3 push)
+SHARED void push_link_if(mask wanted, const articulation *t, uint_lanes k, spatial_force at_center)
 {
   while (any_of(wanted)) {
     tree_link l = tree_link_of(t, k);
-    joint_share s = share_of_joint(t, l, load_placed_joint(t, l), at_center, push);
+    joint_share s = share_of_joint(t, l, load_placed_joint(t, l), at_center, zero3());
     spatial_force pending = {s.pending, zero3()};
     pending = choose_force(l.is_free, at_center, pending);
     add_to_force(wanted, t, k, (uint)WORK_PENDING, pending);
     wanted = wanted & !l.is_root;
     k = choose(wanted, l.parent, k);
     at_center = choose_force(wanted, s.rest, at_center);
-    push = choose3(wanted, zero3(), push);
   }
 }
 /* An impulse on link k, at its centre. */
 SHARED void push_link(const articulation *t, uint_lanes k, spatial_force impulse)
 {
-  push_link_if(k < t->links, t, k, impulse, zero3());
-}
-/* An impulse of the joint of link k, in its numbers; of one degree of freedom. */
-SHARED void push_joint(const articulation *t, uint_lanes k, real impulse)
-{
-  push_link_if(k < t->links, t, k, no_force(), make_vec3(impulse, R(0.0), R(0.0)));
+  push_link_if(k < t->links, t, k, impulse);
 }
 
 /* Notes at each link between k and the root the next one on the way to k. */
@@ -139,19 +133,17 @@ SHARED void note_path(mask wanted, const articulation *t, uint_lanes k)
   }
 }
 
-/* The change of velocity of link k since the tree was settled, at its centre. *change: of its joint. */
-SHARED spatial_motion pending_change(const articulation *t, uint_lanes k, vec3 *change)
+/* The change of velocity of link k since the tree was settled, at its centre. */
+SHARED spatial_motion pending_change(const articulation *t, uint_lanes k)
 {
   mask wanted = k < t->links;
   note_path(wanted, t, k);
   uint_lanes at = choose(wanted, (uint_lanes)0u, k);
   spatial_motion m = no_motion();
-  *change = zero3();
   while (any_of(wanted)) {
     tree_link l = tree_link_of(t, at);
     vec3 of_joint;
     m = choose_motion(wanted, link_change(t, l, m, &of_joint), m);
-    *change = choose3(wanted, of_joint, *change);
     uint_lanes following = load_uint(t->next, tree_row(t, 1u, l.k, 0u));
     wanted = wanted & (following != at);
     at = choose(wanted, following, at);

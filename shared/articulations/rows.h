@@ -1,20 +1,20 @@
 /* rows.h - limits, friction, motors and drives with a largest force of the joints of a tree: constraint rows of one
  * degree of freedom each, solved one after another (Gauss-Seidel) by impulses that the whole tree answers.
  *
- * A row is that of a maximal joint (shared/joints/axes.h); only its response and its speed come from the tree. What is
- * pending of a settled tree (respond.h) is what the rows of a pass have done so far. If none has pushed, none walks
- * through the tree.
+ * A row is that of a maximal joint (shared/joints/axes.h); only its response and its speed come from the tree. A sweep
+ * (sweep.h) comes to all joints.
  *
  *   rows in reach    drives, friction, held joints, and stops that a joint may come to in this substep
- *   rows found late  of joints that would pass a stop because the rows in reach have pushed them; in biased passes
+ *   rows found late  of joints that would pass a stop because others have pushed them; in biased passes, a sweep of its
+ *                    own
  *
- * Most stops are far away. Trees beside each other each go on to their own next row, so lanes and work-items wait for
- * the most rows that a tree has in reach, not for all joints that have a row in some tree.
+ * Most stops are far away, so most joints have no row, and a tree of which nothing has pushed a joint finds none late.
  */
 #ifndef TANDEM_SHARED_ARTICULATIONS_ROWS_H
 #define TANDEM_SHARED_ARTICULATIONS_ROWS_H
 
 #include "shared/articulations/loads.h"
+#include "shared/articulations/sweep.h"
 
 /* Without its implicit drive, which is no row. */
 SHARED joint_axis axis_of_rows(const articulation *t, tree_link l)
@@ -43,86 +43,98 @@ SHARED real stop_reach(GLOBAL const Parameters *parameters, const joint_axis *a,
   return choose(a->limit_stiffness > R(0.0), reach, (real)R(0.0));
 }
 
-/* Whether the joint may get an impulse from a row in this pass, or has one. */
-SHARED mask has_row_in_reach(GLOBAL const Parameters *parameters, const articulation *t, tree_link l,
-                             const joint_axis *a, uint pass)
+/* Whether the joint may get an impulse from a row in this pass, or has one. limit: the impulse of its limit. */
+SHARED mask has_row_in_reach(GLOBAL const Parameters *parameters, const joint_axis *a, const axis_row *r, real limit,
+                             uint pass)
 {
-  real value = load_state(t, l.k, (uint)STATE_JOINT_POSITION).x,
-       speed = load_state(t, l.k, (uint)STATE_JOINT_VELOCITY).x;
-  mask near = minimum(value - a->lower, a->upper - value) <= stop_reach(parameters, a, speed, pass);
-  return always_has_row(a) | (load_state(t, l.k, (uint)STATE_ROW_IMPULSE).y != R(0.0)) | near;
+  mask near = minimum(r->at.value - a->lower, a->upper - r->at.value) <= stop_reach(parameters, a, r->speed, pass);
+  return always_has_row(a) | (limit != R(0.0)) | near;
 }
 
 /* Whether the joint passes a stop in this substep that has done nothing to it so far. */
-SHARED mask has_late_row(GLOBAL const Parameters *parameters, const articulation *t, tree_link l, const joint_axis *a)
+SHARED mask has_late_row(GLOBAL const Parameters *parameters, const joint_axis *a, const axis_row *r, real limit)
 {
-  real value = load_state(t, l.k, (uint)STATE_JOINT_POSITION).x,
-       way = load_state(t, l.k, (uint)STATE_JOINT_VELOCITY).x * parameters->substep;
-  mask passes = (value + way < a->lower) | (value + way > a->upper);
-  return passes & (load_state(t, l.k, (uint)STATE_ROW_IMPULSE).y == R(0.0));
+  real end = r->at.value + r->speed * parameters->substep;
+  return ((end < a->lower) | (end > a->upper)) & (limit == R(0.0));
 }
 
-/* The first link from k on that has a row in reach, or in the second round one found late; the number of links if none
- * has. */
-SHARED uint_lanes next_with_row(GLOBAL const Parameters *parameters, const articulation *t, uint_lanes k, uint pass,
-                                uint round)
+/* change: of the velocity of the joint since the tree was settled. */
+SHARED axis_row row_of_link(const articulation *t, tree_link l, real change)
 {
-  mask searches = k < t->links;
-  while (any_of(searches)) {
-    tree_link l = tree_link_of(t, k);
-    joint_axis axis = axis_of_rows(t, l);
-    mask found = round == 0u ? has_row_in_reach(parameters, t, l, &axis, pass) : has_late_row(parameters, t, l, &axis);
-    searches = searches & !(found & has_one_freedom(l));
-    k = choose(searches, k + 1u, k);
-    searches = searches & (k < t->links);
-  }
-  return k;
-}
-
-/* is_pending: whether rows have pushed the tree. */
-SHARED axis_row row_of_link(const articulation *t, tree_link l, mask is_pending)
-{
-  vec3 change = zero3();
-  mask walks = l.exists & is_pending;
-  if (any_of(walks)) pending_change(t, choose(walks, l.k, t->links), &change);
   axis_row r;
   r.at.value = load_state(t, l.k, (uint)STATE_JOINT_POSITION).x;
   r.at.direction = r.at.turn = r.moment_a = r.moment_b = zero3();
   r.response = r.shared_response = load_single_factor(t, l).response;
   r.mass = inverse_if_positive(r.response);
-  r.speed = load_state(t, l.k, (uint)STATE_JOINT_VELOCITY).x + change.x;
+  r.speed = load_state(t, l.k, (uint)STATE_JOINT_VELOCITY).x + change;
   return r;
 }
 
-/* Whether rows have pushed now. */
-SHARED mask solve_rows_of_link(GLOBAL const Parameters *parameters, const articulation *t, tree_link l, uint pass,
-                               mask is_pending)
+/* Which rows a sweep solves. */
+enum { ROWS_IN_REACH, ROWS_FOUND_LATE };
+
+/* At a link at which the sweep has arrived. Whether the rows have pushed. */
+SHARED mask solve_rows_at_link(GLOBAL const Parameters *parameters, const articulation *t, tree_link l, real change,
+                               uint pass, uint which)
 {
-  axis_row r = row_of_link(t, l, is_pending);
+  mask wanted = l.exists & has_one_freedom(l), pushes = wanted & !wanted;
+  if (!any_of(wanted)) return pushes;
+  axis_row r = row_of_link(t, l, change);
   joint_axis axis = axis_of_rows(t, l);
   vec4 kept = load_state(t, l.k, (uint)STATE_ROW_IMPULSE);
+  wanted = wanted & (which == (uint)ROWS_IN_REACH ? has_row_in_reach(parameters, &axis, &r, kept.y, pass)
+                                                  : has_late_row(parameters, &axis, &r, kept.y));
+  if (!any_of(wanted)) return pushes;
   real sum = solve_rows_of_axis(parameters, &r, &axis, &kept, pass);
-  store_state(l.exists, t, l.k, (uint)STATE_ROW_IMPULSE, kept);
-  mask pushes = l.exists & (sum != R(0.0));
-  if (any_of(pushes)) push_link_if(pushes, t, l.k, no_force(), make_vec3(sum, R(0.0), R(0.0)));
-  return is_pending | pushes;
+  store_state(wanted, t, l.k, (uint)STATE_ROW_IMPULSE, kept);
+  pushes = wanted & (sum != R(0.0));
+  if (any_of(pushes)) push_joint_on_way_if(pushes, t, l, sum);
+  return pushes;
 }
 
-/* One pass over a settled tree, which it leaves settled. A tree that no row has pushed finds none late. */
+/* Whether rows have pushed. */
+SHARED mask sweep_rows_if(mask wanted, GLOBAL const Parameters *parameters, const articulation *t, uint pass,
+                          uint which)
+{
+  mask pushed = wanted & !wanted;
+  for (uint k = 0; k < t->most_links; ++k) {
+    tree_link l = go_to_link_if(wanted, t, k);
+    vec3 change = arrive_at_link(t, l);
+    pushed = pushed | solve_rows_at_link(parameters, t, l, change.x, pass, which);
+  }
+  end_sweep_if(wanted, t);
+  return pushed;
+}
+
+SHARED mask has_rows_found_late(GLOBAL const Parameters *parameters, const articulation *t)
+{
+  mask late = has_links(t) & !has_links(t);
+  for (uint k = 0; k < t->most_links; ++k) {
+    tree_link l = tree_link_of(t, k);
+    axis_row r = row_of_link(t, l, R(0.0));
+    joint_axis axis = load_tree_axis(t, l);
+    mask one = l.exists & has_one_freedom(l);
+    late = late | (one & has_late_row(parameters, &axis, &r, load_state(t, l.k, (uint)STATE_ROW_IMPULSE).y));
+  }
+  return late;
+}
+
+/* Of a settled tree, which stays settled. */
+SHARED void solve_rows_found_late_if(mask wanted, GLOBAL const Parameters *parameters, const articulation *t)
+{
+  if (!any_of(wanted)) return;
+  mask late = wanted & has_rows_found_late(parameters, t);
+  if (!any_of(late)) return;
+  sweep_rows_if(late, parameters, t, (uint)PASS_BIASED, (uint)ROWS_FOUND_LATE);
+  settle_tree_if(late, t);
+}
+
+/* One pass, which leaves the tree settled. Contacts and joints of others may have pushed it before. */
 SHARED void solve_tree_rows(GLOBAL const Parameters *parameters, const articulation *t, uint pass)
 {
-  mask goes_on = has_links(t), none = goes_on & !goes_on;
-  uint rounds = pass == (uint)PASS_BIASED ? 2u : 1u;
-  for (uint round = 0u; round < rounds && any_of(goes_on); ++round) {
-    mask is_pending = none;
-    uint_lanes k = next_with_row(parameters, t, choose(goes_on, (uint_lanes)0u, t->links), pass, round);
-    while (any_of(k < t->links)) {
-      is_pending = solve_rows_of_link(parameters, t, tree_link_of(t, k), pass, is_pending);
-      k = next_with_row(parameters, t, choose(k < t->links, k + 1u, k), pass, round);
-    }
-    if (any_of(is_pending)) settle_tree_if(is_pending, t);
-    goes_on = is_pending;
-  }
+  mask pushed = sweep_rows_if(has_links(t), parameters, t, pass, (uint)ROWS_IN_REACH);
+  settle_tree(t);
+  if (pass == (uint)PASS_BIASED) solve_rows_found_late_if(pushed, parameters, t);
 }
 
 #endif

@@ -13,6 +13,7 @@
 typedef struct {
   uint_lanes body, k;
   mask is_link;
+  mask answers;            /* to impulses: a link, or a body that can move */
   articulation tree;       /* of a body that is no link, one without links */
   spatial_velocity record; /* of the body in solver_velocity; of a link its masses count alone */
   spatial_motion velocity;
@@ -23,8 +24,7 @@ typedef struct {
 /* The motion of a link with what is pending in its tree; where it is not wanted, without. */
 SHARED spatial_motion pending_velocity_if(mask wanted, const articulation *t, uint_lanes k)
 {
-  vec3 of_joint;
-  spatial_motion change = pending_change(t, choose(wanted, k, t->links), &of_joint);
+  spatial_motion change = pending_change(t, choose(wanted, k, t->links));
   return add_motions(load_motion(t, k, (uint)WORK_VELOCITY), change);
 }
 
@@ -52,6 +52,7 @@ SHARED pushed_side single_body_side(read_links links, write_link_states states, 
   s.tree = articulation_at(links, states, (uint_lanes)0u);
   s.tree.links = (uint_lanes)0u;
   s.is_link = has_links(&s.tree);
+  s.answers = record.inverse_mass > R(0.0);
   s.velocity.linear = record.linear;
   s.velocity.angular = record.angular;
   s.inverse = inverse_of_single_body(record, inertia, to_uint(locks));
@@ -70,6 +71,7 @@ SHARED pushed_side pushed_side_of(mask in_table, read_links links, write_link_st
   s.tree = articulation_at(links, states, choose(in_table, articulation_of_body(links.of_body, body), (uint_lanes)0u));
   s.is_link = in_table & has_links(&s.tree);
   s.tree.links = choose(s.is_link, s.tree.links, (uint_lanes)0u);
+  s.answers = s.answers | s.is_link;
   s.k = choose(s.is_link, load_uint(links.of_body, LINK_WORDS * body + 2u), (uint_lanes)0u);
   if (pass == (uint)PASS_WARM_STARTING) return s; /* adds to what pushes, whatever the velocity */
   s.velocity = choose_motion(s.is_link, pending_velocity_if(s.is_link, &s.tree, s.k), s.velocity);
@@ -92,13 +94,18 @@ SHARED spatial_force twist_about(vec3 moment)
 /* How fast the side moves along `second` by the impulse `first`. */
 SHARED real response_of_side_of_pair(const pushed_side *s, spatial_force first, spatial_force second)
 {
-  return power_of(second, inverse_times(&s->inverse, first));
+  if (!any_of(s->answers)) return R(0.0);
+  return choose(s->answers, power_of(second, inverse_times(&s->inverse, first)), (real)R(0.0));
 }
 
+/* The answer of a body that has none is not computed, nor added: -0 + 0 is +0, and the bits would depend on what shares
+ * the lanes. */
 SHARED void push_side_of_pair(pushed_side *s, spatial_force impulse)
 {
-  s->velocity = add_motions(s->velocity, inverse_times(&s->inverse, impulse));
-  s->pushed = add_forces(s->pushed, impulse);
+  if (!any_of(s->answers)) return;
+  spatial_motion velocity = add_motions(s->velocity, inverse_times(&s->inverse, impulse));
+  s->velocity = choose_motion(s->answers, velocity, s->velocity);
+  s->pushed = choose_force(s->answers, add_forces(s->pushed, impulse), s->pushed);
 }
 
 SHARED mask is_push(spatial_force f) { return is_nonzero(f.force) | is_nonzero(f.moment); }
@@ -108,7 +115,7 @@ SHARED void push_into_tree_if(mask wanted, pushed_side *s)
 {
   mask pushes = wanted & s->is_link & is_push(s->pushed);
   if (any_of(pushes)) {
-    push_link_if(pushes, &s->tree, s->k, s->pushed, zero3());
+    push_link_if(pushes, &s->tree, s->k, s->pushed);
     note_pushed_if(pushes, &s->tree, R(1.0));
   }
   s->pushed = choose_force(wanted & s->is_link, no_force(), s->pushed);

@@ -67,13 +67,13 @@ SHARED void accelerate_articulations_item(GLOBAL const Parameters *parameters, r
   write_velocities(links, &t, solver_velocity);
 }
 
-/* Settles what the contacts have pushed, and solves the rows of joints, which PASS_BOUNCING has not. */
+/* Solves the rows of joints, which PASS_BOUNCING has not, and settles what these and the contacts have pushed. */
 SHARED void solve_articulations_item(GLOBAL const Parameters *parameters, read_links links, write_link_states states,
                                      GLOBAL float4 *solver_velocity, uint pass, item_index i)
 {
   articulation t = articulation_at(links, states, (uint_lanes)i);
-  settle_tree(&t);
-  if (pass != (uint)PASS_BOUNCING) solve_tree_rows(parameters, &t, pass);
+  if (pass == (uint)PASS_BOUNCING) settle_tree(&t);
+  else solve_tree_rows(parameters, &t, pass);
   write_velocities(links, &t, solver_velocity);
 }
 

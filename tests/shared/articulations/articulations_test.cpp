@@ -187,8 +187,7 @@ TEST_CASE("articulations: impulses on links move the whole tree as its inverse m
       const Column impulse = random_column(random, 6);
       push_link(&tree.t, link, force_of(impulse));
       expected += inverse * dense.jacobian().middleRows<6>(6 * int(link)).transpose() * impulse;
-      vec3 change;
-      const Column seen = six(pending_change(&tree.t, other, &change));
+      const Column seen = six(pending_change(&tree.t, other));
       CHECK((seen - dense.jacobian().middleRows<6>(6 * int(other)) * expected).norm() < 1e-10);
     }
     settle_tree(&tree.t);
@@ -196,6 +195,41 @@ TEST_CASE("articulations: impulses on links move the whole tree as its inverse m
     const Column velocities = dense.jacobian() * (c.state.v + expected);
     for (uint k = 0; k < tree.t.links; ++k)
       CHECK((six(load_motion(&tree.t, k, WORK_VELOCITY)) - velocities.segment<6>(6 * k)).norm() < 1e-10);
+  });
+}
+
+TEST_CASE("articulations: a sweep sees at each link and joint all that it has pushed before", "[articulations]")
+{
+  for_random_trees(true, [](Random &random, const Case &c) {
+    constexpr double h = 0.01;
+    Tree tree(c.model);
+    tree.set(c.state);
+    tree.prepare(h);
+    const DenseTree dense(c.model, c.state);
+    const Dense inverse = dense.mass_matrix(h).ldlt().solve(Dense::Identity(c.model.size(), c.model.size()));
+    const uint pushed = random.below(tree.t.links); /* before the sweep */
+    const Column first = random_column(random, 6);
+    push_link(&tree.t, pushed, force_of(first));
+    Column expected = inverse * dense.jacobian().middleRows<6>(6 * int(pushed)).transpose() * first;
+    for (uint k = 0; k < tree.t.links; ++k) {
+      const tree_link l = go_to_link_if(true, &tree.t, k);
+      const double change = arrive_at_link(&tree.t, l).x;
+      const auto jacobian = dense.jacobian().middleRows<6>(6 * int(k));
+      if (has_one_freedom(l)) {
+        CHECK(change == Approx(expected[c.model.first(k)]).margin(1e-10));
+        push_joint_on_way_if(true, &tree.t, l, 0.3);
+        expected += 0.3 * inverse.col(c.model.first(k));
+      }
+      CHECK((six(load_motion(&tree.t, k, WORK_CHANGE)) - jacobian * expected).norm() < 1e-10);
+      if (random.below(2) == 0) continue;
+      const Column impulse = random_column(random, 6);
+      push_on_way_if(true, &tree.t, k, force_of(impulse));
+      expected += inverse * jacobian.transpose() * impulse;
+      CHECK((six(load_motion(&tree.t, k, WORK_CHANGE)) - jacobian * expected).norm() < 1e-10);
+    }
+    end_sweep_if(true, &tree.t);
+    settle_tree(&tree.t);
+    CHECK((tree.get().v - c.state.v - expected).norm() < 1e-10);
   });
 }
 

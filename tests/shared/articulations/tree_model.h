@@ -236,15 +236,17 @@ inline Turn random_turn(Random &random)
   return Turn(q[3], q[0], q[1], q[2]).normalized();
 }
 
-/* Links of random masses, moments and frames on random earlier ones. Numbers are floats, so that both precisions have
- * the same tree. */
+/* Links of random masses, moments and frames, each on the one before or on a random one between it and the root
+ * (shared/articulations/tree.h has the order). Numbers are floats, so that both precisions have the same tree. */
 inline TreeModel random_tree(Random &random, size_t count, int root)
 {
   TreeModel model;
   const auto number = [&](double low, double high) { return double(float(random.uniform(low, high))); };
   for (size_t k = 0; k < count; ++k) {
     LinkModel l;
-    l.parent = k == 0 ? -1 : int(random.below(uint32_t(k)));
+    l.parent = int(k) - 1;
+    for (uint32_t up = k == 0 ? 0 : random.below(4); up > 0 && l.parent > 0; --up)
+      l.parent = model.links[size_t(l.parent)].parent;
     l.joint = k == 0 ? root : int(random.below(4));
     const bool is_free = l.joint == TREE_JOINT_FREE;
     if (k > 0) l.from_parent = random_vector(random, 0.4).cast<float>().cast<double>();
