@@ -10,8 +10,8 @@
  * The links of a tree stand in the order in which this way comes to them. A sweep over all of them costs as much as two
  * walks over the tree, however many rows there are.
  *
- * WORK_CHANGE is the change of a link since the tree was settled, right between arriving and leaving. WORK_FORCE is what
- * has pushed it since the sweep arrived. After the sweep all that the rows have done is pending.
+ * WORK_CHANGE is the change of a link since the tree was settled; it holds between arriving and leaving. WORK_FORCE is
+ * what has pushed the link since the sweep arrived. After the sweep all that the rows have done is pending.
  */
 #ifndef TANDEM_SHARED_ARTICULATIONS_SWEEP_H
 #define TANDEM_SHARED_ARTICULATIONS_SWEEP_H
