@@ -153,26 +153,40 @@ private:
   void find_contacts()
   {
     if (has(FEATURE_PAIR_KINDS)) list_pairs(launcher(), plan().capacity_pairs);
-    for (const PairTest &test : pair_tests)
-      if (has(test.feature)) {
-        if (test.kernel == Kernel::collide_convex && settings().narrowphase == Narrowphase::sat_split) split_sat(test);
-        else collide(test.kernel, test.kind);
-        if (test.follower) collide(*test.follower, test.kind);
-      }
+    const bool branches = tests_pairs_side_by_side();
+    uint32_t branch = 0;
+    for (const PairTest &test : pair_tests) {
+      if (!has(test.feature)) continue;
+      if (branches) ++branch;
+      if (test.kernel == Kernel::collide_convex && settings().narrowphase == Narrowphase::sat_split)
+        split_sat(test, branch);
+      else collide(test.kernel, test.kind, branch);
+      if (test.follower) collide(*test.follower, test.kind, branch);
+    }
   }
 
-  void split_sat(const PairTest &test)
+  /* The kernels that follow pairs of one kind leave most of a device idle. Opening branches costs as much as a kernel
+   * of few pairs does. */
+  bool tests_pairs_side_by_side() const
+  {
+    constexpr uint32_t least_pairs = 16384;
+    const auto is_followed = [&](const PairTest &test) { return test.follower && has(test.feature); };
+    return plan().known[COUNT_PAIRS] >= least_pairs &&
+           std::count_if(std::begin(pair_tests), std::end(pair_tests), is_followed) > 1;
+  }
+
+  void split_sat(const PairTest &test, uint32_t branch)
   {
     for (const Kernel kernel :
          {Kernel::find_separating_axis, Kernel::find_clipping_faces, Kernel::clip_faces, Kernel::reduce_contacts})
-      collide(kernel, test.kind);
+      collide(kernel, test.kind, branch);
   }
 
   /* Kernels that handle convex shapes have a value for the method. */
-  void collide(Kernel kernel, uint32_t kind)
+  void collide(Kernel kernel, uint32_t kind, uint32_t branch)
   {
     const bool takes_method = row_of(kernel).arguments.back().kind == Argument::Kind::value;
-    run_pairs(kernel, kind, takes_method ? Values{narrowphase_method(settings())} : Values{});
+    run_pairs(kernel, kind, takes_method ? Values{narrowphase_method(settings())} : Values{}, branch);
   }
 
   void color_contacts()

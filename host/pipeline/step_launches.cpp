@@ -30,12 +30,13 @@ void StepLaunches::run_at_most(Kernel kernel, uint32_t most, const Values &value
   launcher_.launch({kernel, slots, values, COUNT_ZERO, row_of(kernel).items, most});
 }
 
-void StepLaunches::run_pairs(Kernel kernel, uint32_t pair_kind, const Values &values)
+void StepLaunches::run_pairs(Kernel kernel, uint32_t pair_kind, const Values &values, uint32_t branch)
 {
-  run_pairs(kernel, pair_kind, pair_kind, values);
+  run_pairs(kernel, pair_kind, pair_kind, values, branch);
 }
 
-void StepLaunches::run_pairs(Kernel kernel, uint32_t first_kind, uint32_t last_kind, const Values &values)
+void StepLaunches::run_pairs(Kernel kernel, uint32_t first_kind, uint32_t last_kind, const Values &values,
+                             uint32_t branch)
 {
   const bool listed = has(FEATURE_PAIR_KINDS);
   const uint32_t first = listed ? KIND_START + first_kind : uint32_t{COUNT_ZERO};
@@ -43,7 +44,7 @@ void StepLaunches::run_pairs(Kernel kernel, uint32_t first_kind, uint32_t last_k
   const uint32_t expected = row_of(kernel).execution == Execution::group
                                 ? pair_group_items(plan_.capacity_pairs, FOLLOW_PAIRS)
                                 : plan_.known[last] - plan_.known[first];
-  launcher_.launch({kernel, {}, values, first, last, expected});
+  launcher_.launch({kernel, {}, values, first, last, expected, branch});
 }
 
 /* A contact of a link is solved by solve_tree_contacts or for_each_link_color. */

@@ -30,10 +30,11 @@ public:
   /* Launches a kernel over the items of its row, of which there are at most `most`; for numbers that the last step does
    * not predict. */
   void run_at_most(Kernel kernel, uint32_t most, const Values &values = {}, const Slots &slots = {});
-  /* Launches a kernel over the pairs of its kind: their list, or all pairs if the scene has no lists. */
-  void run_pairs(Kernel kernel, uint32_t pair_kind, const Values &values = {});
+  /* Launches a kernel over the pairs of its kind: their list, or all pairs if the scene has no lists. branch: as Launch
+   * has it. */
+  void run_pairs(Kernel kernel, uint32_t pair_kind, const Values &values, uint32_t branch = 0);
   /* Launches a kernel over the pairs of consecutive kinds. */
-  void run_pairs(Kernel kernel, uint32_t first_kind, uint32_t last_kind, const Values &values);
+  void run_pairs(Kernel kernel, uint32_t first_kind, uint32_t last_kind, const Values &values, uint32_t branch = 0);
   /* Launches a kernel once for each colour of constraints; constraints without a colour are left to
    * host/pipeline/solvers/mass_split.h. */
   void for_each_color(Kernel kernel, const Values &values = {});

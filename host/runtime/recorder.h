@@ -12,7 +12,8 @@
 
 namespace tandem {
 
-/* The launches of a step that touch a buffer lie from the first to the last of these numbers. */
+/* The launches of a step that touch a buffer lie from the first to the last of these numbers. Those of branches have
+ * one number, because they may run side by side. */
 struct Span {
   static constexpr uint32_t never = UINT32_MAX;
   uint32_t first = never, last = 0;
@@ -25,7 +26,8 @@ class Recorder : public Launcher {
 public:
   void launch(const Launch &launch) override
   {
-    if (in_step_) ++launches_;
+    if (in_step_ && !(launch.branch > 0 && in_branches_)) ++launches_;
+    in_branches_ = launch.branch > 0;
     for_each_buffer(launch, [&](Buffer buffer, Access) {
       Span &span = spans[index_of(buffer)];
       span = {std::min(span.first, launches_), launches_};
@@ -62,7 +64,7 @@ private:
   }
 
   uint32_t launches_ = 0;
-  bool in_step_ = true;
+  bool in_step_ = true, in_branches_ = false;
 };
 
 } // namespace tandem

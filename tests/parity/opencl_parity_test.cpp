@@ -97,6 +97,14 @@ TEST_CASE("parity on OpenCL: trees by subtrees, other sizes of work-groups")
   }
 }
 
+/* As GPUs run them: enough pairs of several kinds for branches (host/runtime/opencl/branches.h). */
+TEST_CASE("parity on OpenCL: tests of pairs side by side")
+{
+  require_pocl();
+  const Environment always("TANDEM_BRANCHES", "always");
+  require_parity("ragdolls:n=700", {"tbb:threads=2", "cl:pocl"}, 4);
+}
+
 /* More bodies than a tile has items, so that groups of every size stride over several tiles. */
 TEST_CASE("parity on OpenCL: every size of work-groups")
 {

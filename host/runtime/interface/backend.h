@@ -28,6 +28,7 @@ struct Launch {
   uint32_t last = COUNT_ZERO;
   uint32_t expected = 0; /* estimate of the number of items, which sizes a device's launch but never changes its result.
                             GROUP: at least as many */
+  uint32_t branch = 0;   /* launches of other branches than 0 that follow each other need no order among branches */
 };
 
 /* Calls work(buffer, access) for each buffer that a launch takes, in the order of the kernel's row. */

@@ -130,6 +130,31 @@ void DeviceContext::open_queue(cl_command_queue_properties properties)
   }
 }
 
+namespace {
+
+void require_branches(const DeviceInfo &info, cl_int code)
+{
+  if (code != CL_SUCCESS)
+    throw DeviceError(fmt::format("OpenCL device {} ({}): launching side by side failed: {}", info.device_name,
+                                  info.platform_name, error_name(code)));
+}
+
+} // namespace
+
+cl_command_queue DeviceContext::in_order() const
+{
+  if (branches_.are_open())
+    require_branches(info, code_of(faults::Site::launch, [&] { return branches_.join(queue); }));
+  return queue();
+}
+
+cl_command_queue DeviceContext::branch(uint32_t number) const
+{
+  cl_command_queue opened = nullptr;
+  require_branches(info, code_of(faults::Site::launch, [&] { return branches_.open(queue, number, opened); }));
+  return opened;
+}
+
 DeviceContext::DeviceContext(const Candidate &candidate) : info(candidate.info), device(candidate.device)
 {
   const minicl::ExactFloatingPoint environment;

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "host/runtime/opencl/api.h"
+#include "host/runtime/opencl/branches.h"
 #include "host/runtime/opencl/device.h"
 #include "host/runtime/opencl/embedded_kernels.h"
 
@@ -27,12 +28,19 @@ struct DeviceContext {
   explicit DeviceContext(const Candidate &candidate);
   /* Replaces the queue by a new one; if it throws DeviceError, the old queue remains. */
   void open_queue(cl_command_queue_properties properties);
+  /* The queue, which waits for the branches that were open. Throws DeviceError. */
+  cl_command_queue in_order() const;
+  /* The queue of a branch (branches.h). Throws DeviceError. */
+  cl_command_queue branch(uint32_t number) const;
 
   DeviceInfo info;
   cl::Device device;
   cl::Context context;
-  cl::CommandQueue queue; /* in order */
+  cl::CommandQueue queue; /* in order; while branches may be open, in_order() */
   std::string options;    /* for every program: the floating-point rules */
+
+private:
+  mutable Branches branches_;
 };
 
 inline bool is_pocl(const DeviceContext &context)

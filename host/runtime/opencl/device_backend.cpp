@@ -1,4 +1,5 @@
-/* device_backend.cpp - builds the programs and kernels of a scene's features and launches them into one in-order queue.
+/* device_backend.cpp - builds the programs and kernels of a scene's features and launches them into one in-order queue
+ * and its branches.
  *
  * A step makes some two hundred launches of a few microseconds each, so run() allocates nothing and sets only the
  * arguments that changed since the kernel's last launch.
@@ -11,6 +12,7 @@
 #include <map>
 #include <set>
 #include <sstream>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -65,11 +67,20 @@ size_t group_size_of_tests()
   return size;
 }
 
+/* Whether devices other than GPUs have branches, too, which tests ask for. */
+bool branches_of_tests()
+{
+  const char *text = std::getenv("TANDEM_BRANCHES");
+  if (!text || !*text) return false;
+  if (std::string_view(text) != "always") throw InputError(fmt::format("TANDEM_BRANCHES '{}' is not 'always'", text));
+  return true;
+}
+
 class OpenclBackend : public Backend {
 public:
   OpenclBackend(const std::string &name, const Candidate &candidate)
       : name_(name), context_(candidate), storage_(context_), group_size_(group_size_of_tests()),
-        phase_mode_(phase_mode_of_tests())
+        phase_mode_(phase_mode_of_tests()), has_branches_(branches_of_tests() || context_.info.type == "GPU")
   {
     pending_.reserve(most_events);
   }
@@ -142,13 +153,14 @@ public:
     const size_t group_size = group_size_for(row_of(launch.kernel), built, launch.expected);
     const size_t global_size = group_count(row_of(launch.kernel).execution, launch.expected, group_size) * group_size;
     cl_event event = nullptr;
+    const cl_command_queue queue = queue_of(launch);
     const cl_int code = code_of(faults::Site::launch, [&] {
-      return clEnqueueNDRangeKernel(context_.queue(), built.kernel(), 1, nullptr, &global_size, &group_size, 0, nullptr,
+      return clEnqueueNDRangeKernel(queue, built.kernel(), 1, nullptr, &global_size, &group_size, 0, nullptr,
                                     profiling_ ? &event : nullptr);
     });
     if (code != CL_SUCCESS) fail(row_of(launch.kernel), "launch", code);
     if (event) keep(launch.kernel, event);
-    if (++launches % launches_per_flush == 0) clFlush(context_.queue());
+    if (++launches % launches_per_flush == 0) clFlush(queue);
   }
 
   uint32_t most_items_of_series() const override { return current_ ? current_->phases.most_items() : 0; }
@@ -348,6 +360,12 @@ private:
     return size;
   }
 
+  /* A profile is of kernels that have the device for themselves. */
+  cl_command_queue queue_of(const Launch &launch) const
+  {
+    return launch.branch > 0 && has_branches_ && !profiling_ ? context_.branch(launch.branch) : context_.in_order();
+  }
+
   static size_t group_count(Execution execution, uint32_t expected, size_t group_size)
   {
     const size_t items = std::max<size_t>(expected, 1);
@@ -414,6 +432,7 @@ private:
   uint64_t finished_launches_ = 0; /* by the last wait for all of them */
   size_t group_size_;              /* of all kernels; 0: each kernel's own */
   PhaseMode phase_mode_;
+  bool has_branches_; /* other devices than GPUs have no units left idle */
   size_t units_ = context_.device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
   std::map<Stage, Features> readable_; /* the features that the program of a stage reads */
   Programs programs_;

@@ -47,12 +47,12 @@ void PhaseProgram::run(std::span<const BoundLaunch> series, void *counts)
   if (resident_) set_meetings(script);
   const size_t items = groups * group_size_;
   const cl_int code = code_of(faults::Site::launch, [&] {
-    return clEnqueueNDRangeKernel(context_.queue(), script.kernel(), 1, nullptr, &items, &group_size_, 0, nullptr,
+    return clEnqueueNDRangeKernel(context_.in_order(), script.kernel(), 1, nullptr, &items, &group_size_, 0, nullptr,
                                   nullptr);
   });
   if (code != CL_SUCCESS) fail("launch", code);
   if (resident_) resident_->note_launch(groups, meetings_of(series.size()));
-  clFlush(context_.queue());
+  clFlush(context_.in_order());
 }
 
 void PhaseProgram::fail(const char *what, cl_int code) const
@@ -177,7 +177,7 @@ void PhaseProgram::upload(Script &script, const std::vector<uint32_t> &words)
   script.words = words;
   cl_event written = nullptr;
   const cl_int code = code_of(faults::Site::transfer, [&] {
-    return clEnqueueWriteBuffer(context_.queue(), script.buffer(), CL_FALSE, 0, words.size() * sizeof words[0],
+    return clEnqueueWriteBuffer(context_.in_order(), script.buffer(), CL_FALSE, 0, words.size() * sizeof words[0],
                                 script.words.data(), 0, nullptr, &written);
   });
   if (code != CL_SUCCESS) {

@@ -31,7 +31,8 @@ void *map(const DeviceContext &context, cl_mem memory, size_t offset, size_t byt
   cl_int code = CL_SUCCESS;
   void *place = nullptr;
   if (faults::strikes(faults::Site::transfer)) code = CL_MAP_FAILURE;
-  else place = clEnqueueMapBuffer(context.queue(), memory, CL_TRUE, flags, offset, bytes, 0, nullptr, nullptr, &code);
+  else
+    place = clEnqueueMapBuffer(context.in_order(), memory, CL_TRUE, flags, offset, bytes, 0, nullptr, nullptr, &code);
   if (code != CL_SUCCESS) fail(context, "mapping", bytes, code);
   return place;
 }
@@ -39,7 +40,7 @@ void *map(const DeviceContext &context, cl_mem memory, size_t offset, size_t byt
 void unmap(const DeviceContext &context, cl_mem memory, void *place, size_t bytes)
 {
   const cl_int code = code_of(faults::Site::transfer, [&] {
-    return clEnqueueUnmapMemObject(context.queue(), memory, place, 0, nullptr, nullptr);
+    return clEnqueueUnmapMemObject(context.in_order(), memory, place, 0, nullptr, nullptr);
   });
   if (code != CL_SUCCESS) fail(context, "unmapping", bytes, code);
 }
@@ -91,7 +92,7 @@ cl_int fill_with_zeros(const DeviceContext &context, cl_mem memory, size_t bytes
   cl_int code = CL_SUCCESS;
   for (size_t at = 0; at < bytes && code == CL_SUCCESS; at += most_filled_at_once) {
     const size_t part = std::min(bytes - at, most_filled_at_once);
-    code = clEnqueueFillBuffer(context.queue(), memory, zeros.data(), pattern_bytes, at, part, 0, nullptr, nullptr);
+    code = clEnqueueFillBuffer(context.in_order(), memory, zeros.data(), pattern_bytes, at, part, 0, nullptr, nullptr);
   }
   return code;
 }
@@ -99,8 +100,8 @@ cl_int fill_with_zeros(const DeviceContext &context, cl_mem memory, size_t bytes
 /* The marker is for rusticl 22.3, whose clFinish does not wait for commands that a clFlush has already sent. */
 cl_int finish_queue(const DeviceContext &context)
 {
-  const cl_int code = clEnqueueMarkerWithWaitList(context.queue(), 0, nullptr, nullptr);
-  return code == CL_SUCCESS ? clFinish(context.queue()) : code;
+  const cl_int code = clEnqueueMarkerWithWaitList(context.in_order(), 0, nullptr, nullptr);
+  return code == CL_SUCCESS ? clFinish(context.in_order()) : code;
 }
 
 } // namespace
@@ -133,7 +134,10 @@ void *DeviceStorage::allocate(Element, size_t bytes, void *host_memory)
 void DeviceStorage::release(void *handle) noexcept
 {
   const std::unique_ptr<DeviceBuffer> buffer(static_cast<DeviceBuffer *>(handle));
-  if (buffer->shared_with) finish_queue(context_);
+  try {
+    if (buffer->shared_with) finish_queue(context_);
+  } catch (const DeviceError &) { /* a lost device uses nothing */
+  }
   clReleaseMemObject(buffer->memory);
 }
 
@@ -152,7 +156,7 @@ void DeviceStorage::write(void *handle, size_t offset, const void *from, size_t 
   if (buffer.shared_with && from == buffer.shared_with + offset)
     return pass_ownership(buffer, offset, bytes, CL_MAP_WRITE_INVALIDATE_REGION);
   const cl_int code = code_of(faults::Site::transfer, [&] {
-    return clEnqueueWriteBuffer(context_.queue(), buffer.memory, CL_TRUE, offset, bytes, from, 0, nullptr, nullptr);
+    return clEnqueueWriteBuffer(context_.in_order(), buffer.memory, CL_TRUE, offset, bytes, from, 0, nullptr, nullptr);
   });
   if (code != CL_SUCCESS) fail(context_, "writing", bytes, code);
 }
@@ -164,7 +168,7 @@ void DeviceStorage::read(void *handle, size_t offset, void *to, size_t bytes)
   if (buffer.shared_with && to == buffer.shared_with + offset)
     return pass_ownership(buffer, offset, bytes, CL_MAP_READ);
   const cl_int code = code_of(faults::Site::transfer, [&] {
-    return clEnqueueReadBuffer(context_.queue(), buffer.memory, CL_TRUE, offset, bytes, to, 0, nullptr, nullptr);
+    return clEnqueueReadBuffer(context_.in_order(), buffer.memory, CL_TRUE, offset, bytes, to, 0, nullptr, nullptr);
   });
   if (code != CL_SUCCESS) fail(context_, "reading", bytes, code);
 }
@@ -175,7 +179,7 @@ void DeviceStorage::read_planes(void *handle, size_t plane_bytes, void *to, size
   const DeviceBuffer &buffer = *static_cast<DeviceBuffer *>(handle);
   const size_t origin[3] = {0, 0, 0}, region[3] = {bytes, planes, 1};
   const cl_int code = code_of(faults::Site::transfer, [&] {
-    return clEnqueueReadBufferRect(context_.queue(), buffer.memory, CL_TRUE, origin, origin, region, plane_bytes, 0,
+    return clEnqueueReadBufferRect(context_.in_order(), buffer.memory, CL_TRUE, origin, origin, region, plane_bytes, 0,
                                    bytes, 0, to, 0, nullptr, nullptr);
   });
   if (code != CL_SUCCESS) fail(context_, "reading", bytes * planes, code);
@@ -186,7 +190,7 @@ void DeviceStorage::copy(void *from, void *to, size_t bytes)
   if (bytes == 0) return;
   is_busy_ = true;
   const cl_int code = code_of(faults::Site::transfer, [&] {
-    return clEnqueueCopyBuffer(context_.queue(), static_cast<DeviceBuffer *>(from)->memory,
+    return clEnqueueCopyBuffer(context_.in_order(), static_cast<DeviceBuffer *>(from)->memory,
                                static_cast<DeviceBuffer *>(to)->memory, 0, 0, bytes, 0, nullptr, nullptr);
   });
   if (code != CL_SUCCESS) fail(context_, "copying", bytes, code);

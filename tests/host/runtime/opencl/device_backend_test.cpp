@@ -93,6 +93,42 @@ TEST_CASE("the last writer is read, whichever of host, MiniCL and OpenCL it was"
   REQUIRE((memory.read<uint32_t>(Buffer::primitive_a, length) == right));
 }
 
+/* Rounds of four stretches, each of which a branch fills twice, after launches over all that take longer and before one
+ * at the end. */
+TEST_CASE("launches of branches wait for what came before, and what follows waits for them")
+{
+  const opencl::Candidate &device = test_device();
+  const Environment always("TANDEM_BRANCHES", "always");
+  const auto backend = prepared(device);
+  constexpr uint32_t stretches = 4, stretch = 50000, length = stretches * stretch, starts = COLOR_START;
+  std::vector<uint32_t> counts(COUNT_TOTAL);
+  for (uint32_t k = 0; k <= stretches; ++k) counts[starts + k] = k * stretch;
+  Memory memory;
+  memory.resize(Buffer::primitive_a, length * 4);
+  memory.resize(Buffer::counts, counts.size() * 4);
+  memory.upload(Buffer::counts, counts.data(), counts.size() * 4);
+  void *values = memory.acquire(Buffer::primitive_a, backend->storage(), Access::inout);
+  void *on_device = memory.acquire(Buffer::counts, backend->storage(), Access::in);
+  const auto fill = [&](uint32_t first, uint32_t last, uint32_t value, uint32_t branch) {
+    const Launch launch{Kernel::fill,  {Buffer::primitive_a}, {value}, starts + first,
+                        starts + last, stretch * stretches,   branch};
+    backend->run(launch, {{values, 0}, {nullptr, value}}, on_device);
+  };
+  for (uint32_t round = 1; round <= 20; ++round) {
+    for (int repeats = 0; repeats < 30; ++repeats) fill(0, stretches, 10 * round, 0);
+    for (uint32_t k = 0; k < stretches; ++k) fill(k, k + 1, 10 * round + 9, k + 1);
+    for (uint32_t k = 0; k < stretches; ++k) fill(k, k + 1, 10 * round + k, k + 1);
+    if (round % 2 == 0) fill(1, 2, 10 * round + 7, 0);
+    std::vector<uint32_t> right(length);
+    for (uint32_t i = 0; i < length; ++i)
+      right[i] = 10 * round + (round % 2 == 0 && i / stretch == 1 ? 7 : i / stretch);
+    REQUIRE((memory.read<uint32_t>(Buffer::primitive_a, length) == right));
+    values = memory.acquire(Buffer::primitive_a, backend->storage(), Access::inout);
+  }
+  const Environment wrong("TANDEM_BRANCHES", "sometimes");
+  REQUIRE_THROWS_AS(opencl::make_device_backend("cl", device), InputError);
+}
+
 TEST_CASE("a device that shares the host's memory works in the host's bytes")
 {
   const opencl::Candidate &device = test_device();
