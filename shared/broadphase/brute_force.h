@@ -1,8 +1,8 @@
 /* brute_force.h - tests every body against every body of its world before it; the oracle of all other broadphases
  * (GS-4150 slide 18, made deterministic by count, scan, write).
  *
- * Counting notes the pairs with the first MOST_MARKED bodies of the world as bits, of which writing takes them: worlds of
- * robots have no more bodies, and the tests are most of what brute force does.
+ * Counting notes the pairs with the first MOST_MARKED bodies of the world as bits, of which writing takes them: worlds
+ * of robots have no more bodies, and the tests are most of what brute force does.
  */
 #ifndef TANDEM_SHARED_BROADPHASE_BRUTE_FORCE_H
 #define TANDEM_SHARED_BROADPHASE_BRUTE_FORCE_H

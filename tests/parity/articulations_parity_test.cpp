@@ -62,14 +62,16 @@ TEST_CASE("parity on CPU: articulations in a heap, held and free, past the last 
 TEST_CASE("parity on CPU: stops that the motor of another joint brings into reach", "[articulations]")
 {
   Scene scene = empty_scene({0, 0, 0});
-  for (uint32_t tree = 0; tree < 9; ++tree) {
+  for (uint32_t tree = 0; tree < 18; ++tree) { /* the latter half has the motor beyond the stops */
     const Point at{0, 0, 2.0 * tree};
     for (int k = 0; k < 2; ++k) add_body(scene, BodyType::dynamic, box_shape(0.5f, 0.05f, 0.05f), at);
     const Vector center = vector_of(at);
-    connect(scene, JointType::hinge, no_body, 2 * tree, center, Vector::UnitZ()).rotations[0] = {
-        .target_velocity = 150.0f * float(tree % 4), .motor = true};
-    JointAxis &stops = connect(scene, JointType::hinge, 2 * tree, 2 * tree + 1, center, Vector::UnitZ()).rotations[0];
-    stops.lower = -0.5f, stops.upper = 0.5f;
+    const JointAxis motor = {.target_velocity = 150.0f * float(tree % 4), .motor = true},
+                    stops = {.lower = -0.5f, .upper = 0.5f};
+    connect(scene, JointType::hinge, no_body, 2 * tree, center, Vector::UnitZ()).rotations[0] =
+        tree < 9 ? motor : stops;
+    connect(scene, JointType::hinge, 2 * tree, 2 * tree + 1, center, Vector::UnitZ()).rotations[0] =
+        tree < 9 ? stops : motor;
     scene.joints.back().collide = false;
     Articulation articulation;
     articulation.joints = {2 * tree, 2 * tree + 1};

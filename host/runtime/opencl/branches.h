@@ -17,25 +17,33 @@
 
 namespace tandem::opencl {
 
-/* Functions return CL_SUCCESS, or the code of what failed; then some of the work may be missing. */
+/* Functions return CL_SUCCESS, or the code of what failed, and throw nothing. */
 class Branches {
 public:
   static constexpr uint32_t most = 4;
 
-  bool are_open() const { return start_() != nullptr; }
+  Branches() = default;
+  Branches(const Branches &) = delete;
+  Branches &operator=(const Branches &) = delete;
+  ~Branches();
+
+  bool are_open() const { return start_ != nullptr; }
   /* The queue of branch number % most, which begins after what `main` has. */
-  cl_int open(const cl::CommandQueue &main, uint32_t number, cl_command_queue &queue);
-  cl_int join(const cl::CommandQueue &main);
+  cl_int open(cl_command_queue main, uint32_t number, cl_command_queue &queue);
+  /* Closes all branches; if it fails, after their work is done. */
+  cl_int join(cl_command_queue main);
 
 private:
-  cl_int mark_start(const cl::CommandQueue &main);
-
   struct Branch {
-    cl::CommandQueue queue;
+    cl_command_queue queue = nullptr;
     bool is_open = false;
   };
+  cl_int mark_start(cl_command_queue main);
+  cl_int wait_for_branches(cl_command_queue main);
+  void close();
+
   std::array<Branch, most> branches_;
-  cl::Event start_; /* null while none is open */
+  cl_event start_ = nullptr; /* null while none is open */
 };
 
 } // namespace tandem::opencl

@@ -143,15 +143,14 @@ void require_branches(const DeviceInfo &info, cl_int code)
 
 cl_command_queue DeviceContext::in_order() const
 {
-  if (branches_.are_open())
-    require_branches(info, code_of(faults::Site::launch, [&] { return branches_.join(queue); }));
+  if (branches_.are_open()) require_branches(info, branches_.join(queue()));
   return queue();
 }
 
 cl_command_queue DeviceContext::branch(uint32_t number) const
 {
   cl_command_queue opened = nullptr;
-  require_branches(info, code_of(faults::Site::launch, [&] { return branches_.open(queue, number, opened); }));
+  require_branches(info, branches_.open(queue(), number, opened));
   return opened;
 }
 

@@ -111,6 +111,7 @@ DeviceStorage::DeviceStorage(const DeviceContext &context) : context_(context), 
 /* The fill also forces drivers that postpone allocation to allocate, so that a lack of memory shows here. */
 void *DeviceStorage::allocate(Element, size_t bytes, void *host_memory)
 {
+  context_.in_order(); /* may throw, while there is no buffer yet */
   auto buffer = std::make_unique<DeviceBuffer>();
   buffer->bytes = rounded(bytes);
   buffer->serial = next_serial_++;

@@ -341,6 +341,25 @@ TEST_CASE("articulations: a stop that another joint's motor brings into reach ac
   CHECK(tree.get().q[1][0] == Approx(-0.5).margin(1e-6));
 }
 
+/* The sweep has passed the stop when it comes to the motor. */
+TEST_CASE("articulations: a stop nearer to the root than the motor that brings it into reach acts in the same pass",
+          "[articulations]")
+{
+  TreeModel model = rods(2);
+  model.gravity.setZero();
+  LinkModel &stopped = model.links[0], &driven = model.links[1];
+  driven.damping = -1; /* DAMPING_OF_MOTOR */
+  driven.target_speed = 3000;
+  driven.from_center.setZero();
+  stopped.lower = -0.5;
+  stopped.upper = 0.5;
+  Tree tree(model);
+  tree.set(rest_of(model));
+  tree.run(1.0 / 240, 1, 1);
+  CHECK(tree.get().v[1] > 1000);
+  CHECK(tree.get().q[0][0] == Approx(-0.5).margin(1e-6));
+}
+
 TEST_CASE("articulations: friction holds a pendulum, or brakes it by its torque", "[articulations]")
 {
   TreeModel model = rods(1);
