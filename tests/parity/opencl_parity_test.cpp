@@ -62,7 +62,7 @@ TEST_CASE("parity on OpenCL: every narrowphase")
   require_pocl();
   for (const Narrowphase narrowphase : choices<Narrowphase>()) {
     Settings settings = all_features();
-
+    settings.narrowphase = narrowphase;
     CAPTURE(narrowphase);
     require_parity(every_shape(), {"serial", "cl:pocl"}, 10, settings);
     require_parity("shapes:n=60", {"serial", "cl:pocl"}, 25, settings);
