@@ -227,19 +227,12 @@ SHARED void store_listed_row_if(mask m, float4 *to, uint_lanes i, vec4 value)
   else store_float4_if(m, to, i, value);
 }
 
-/* Rows that mostly lie beside each other. */
-SHARED vec4 load_row_beside(const float4 *from, uint_lanes i)
+SHARED vec4 load_listed_row(const float4 *from, uint_lanes i)
 {
   const item_index run{i.v[0]};
   return all_of(i == uint_lanes(run)) ? load_float4(from, run) : load_float4(from, i);
 }
-SHARED void store_row_beside_if(mask m, float4 *to, uint_lanes i, vec4 value)
-{
-  const item_index run{i.v[0]};
-  if (all_of(m & (i == uint_lanes(run)))) store_float4(to, run, value);
-  else store_float4_if(m, to, i, value);
-}
-SHARED uint_lanes load_uint_beside(const uint *from, uint_lanes i)
+SHARED uint_lanes load_listed_uint(const uint *from, uint_lanes i)
 {
   const item_index run{i.v[0]};
   return all_of(i == uint_lanes(run)) ? load_uint(from, run) : load_uint(from, i);

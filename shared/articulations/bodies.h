@@ -44,7 +44,7 @@ SHARED articulation articulation_at(read_links links, write_link_states states, 
 
 SHARED uint_lanes body_of_link(read_links links, const articulation *t, uint_lanes k)
 {
-  return load_uint_beside(links.body, tree_row(t, 1u, k, 0u));
+  return load_listed_uint(links.body, tree_row(t, 1u, k, 0u));
 }
 
 /* Whether a contact has pushed a link in this substep: beside the force on a free root. */

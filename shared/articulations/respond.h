@@ -77,6 +77,13 @@ SHARED vec3 joint_change(const articulation *t, tree_link l, placed_joint j, spa
   return change;
 }
 
+/* What of an impulse on a link is pending there: its joint's share; of a free root all of it. */
+SHARED spatial_force pending_share(tree_link l, joint_share s, spatial_force at_center)
+{
+  spatial_force of_joint = {s.pending, zero3()};
+  return choose_force(l.is_free, at_center, of_joint);
+}
+
 SHARED spatial_force load_pending(const articulation *t, uint_lanes k) { return load_force(t, k, (uint)WORK_PENDING); }
 
 /* The change of a free root, all of whose impulses are pending. */
@@ -107,9 +114,7 @@ SHARED void push_link_if(mask wanted, const articulation *t, uint_lanes k, spati
   while (any_of(wanted)) {
     tree_link l = tree_link_of(t, k);
     joint_share s = share_of_joint(t, l, load_placed_joint(t, l), at_center, zero3());
-    spatial_force pending = {s.pending, zero3()};
-    pending = choose_force(l.is_free, at_center, pending);
-    add_to_force(wanted, t, k, (uint)WORK_PENDING, pending);
+    add_to_force(wanted, t, k, (uint)WORK_PENDING, pending_share(l, s, at_center));
     wanted = wanted & !l.is_root;
     k = choose(wanted, l.parent, k);
     at_center = choose_force(wanted, s.rest, at_center);
@@ -193,8 +198,7 @@ SHARED void push_all_links(const articulation *t)
     tree_link l = tree_link_of(t, n - 1u);
     spatial_force at_center = load_force(t, l.k, (uint)WORK_FORCE);
     joint_share s = share_of_joint(t, l, load_placed_joint(t, l), at_center, load_pending(t, l.k).moment);
-    spatial_force pending = {s.pending, zero3()};
-    store_force(l.exists, t, l.k, (uint)WORK_PENDING, choose_force(l.is_free, at_center, pending));
+    store_force(l.exists, t, l.k, (uint)WORK_PENDING, pending_share(l, s, at_center));
     add_to_force(l.exists & !l.is_root, t, l.parent, (uint)WORK_FORCE, s.rest);
   }
 }

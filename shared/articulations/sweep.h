@@ -59,8 +59,7 @@ SHARED void leave_link_if(mask wanted, const articulation *t, tree_link l)
   wanted = wanted & (is_nonzero(pushed.force) | is_nonzero(pushed.moment));
   if (!any_of(wanted)) return;
   joint_share s = share_of_joint(t, l, load_placed_joint(t, l), pushed, zero3());
-  spatial_force pending = {s.pending, zero3()};
-  add_to_force(wanted, t, l.k, (uint)WORK_PENDING, choose_force(l.is_free, pushed, pending));
+  add_to_force(wanted, t, l.k, (uint)WORK_PENDING, pending_share(l, s, pushed));
   push_on_way_if(wanted & !l.is_root, t, l.parent, s.rest);
 }
 

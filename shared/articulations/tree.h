@@ -56,7 +56,7 @@ SHARED tree_link tree_link_of(const articulation *t, uint_lanes k)
   tree_link l;
   l.exists = k < t->links;
   l.k = choose(l.exists, k, (uint_lanes)0u);
-  uint_lanes code = load_uint_beside(t->code, tree_row(t, 1u, l.k, 0u)), joint = code >> LINK_JOINT_SHIFT;
+  uint_lanes code = load_listed_uint(t->code, tree_row(t, 1u, l.k, 0u)), joint = code >> LINK_JOINT_SHIFT;
   uint_lanes parent = code & LINK_NO_PARENT;
   l.is_root = parent == (uint_lanes)LINK_NO_PARENT;
   l.parent = choose(l.is_root, (uint_lanes)0u, parent);
@@ -70,15 +70,15 @@ SHARED mask has_one_freedom(tree_link l) { return l.is_hinge | l.is_slider; }
 
 SHARED vec4 load_link(const articulation *t, uint_lanes k, uint row)
 {
-  return load_row_beside(t->link, tree_row(t, (uint)LINK_ROWS, k, row));
+  return load_listed_row(t->link, tree_row(t, (uint)LINK_ROWS, k, row));
 }
 SHARED vec4 load_state(const articulation *t, uint_lanes k, uint row)
 {
-  return load_row_beside(t->state, tree_row(t, (uint)STATE_ROWS, k, row));
+  return load_listed_row(t->state, tree_row(t, (uint)STATE_ROWS, k, row));
 }
 SHARED void store_state(mask m, const articulation *t, uint_lanes k, uint row, vec4 value)
 {
-  store_row_beside_if(m, t->state, tree_row(t, (uint)STATE_ROWS, k, row), value);
+  store_listed_row_if(m, t->state, tree_row(t, (uint)STATE_ROWS, k, row), value);
 }
 SHARED vec4 load_root(const articulation *t, uint row)
 {
@@ -90,11 +90,11 @@ SHARED void store_root(mask m, const articulation *t, uint row, vec4 value)
 }
 SHARED vec4 load_work(const articulation *t, uint_lanes k, uint row)
 {
-  return load_row_beside(t->work, tree_row(t, (uint)WORK_ROWS, k, row));
+  return load_listed_row(t->work, tree_row(t, (uint)WORK_ROWS, k, row));
 }
 SHARED void store_work(mask m, const articulation *t, uint_lanes k, uint row, vec4 value)
 {
-  store_row_beside_if(m, t->work, tree_row(t, (uint)WORK_ROWS, k, row), value);
+  store_listed_row_if(m, t->work, tree_row(t, (uint)WORK_ROWS, k, row), value);
 }
 
 /* Two rows as a motion, or as a force. */

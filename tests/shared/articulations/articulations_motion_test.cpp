@@ -323,41 +323,41 @@ TEST_CASE("articulations: a limit stops a pendulum and bears its weight", "[arti
 
 /* The first arm is driven. The second hangs on it at its centre and stays by its inertia, until the stop of its joint,
  * far from where it is, takes it along. */
-TEST_CASE("articulations: a stop that another joint's motor brings into reach acts in the same pass", "[articulations]")
+namespace {
+
+/* Two rods after a substep in which a motor turns one and stops at half a radian bound the other. */
+TreeState stopped_rods(size_t driven, double speed)
 {
   TreeModel model = rods(2);
   model.gravity.setZero();
-  LinkModel &driven = model.links[0], &carried = model.links[1];
-  driven.damping = -1; /* DAMPING_OF_MOTOR */
-  driven.target_speed = 1000;
-  carried.from_center.setZero();
-  carried.lower = -0.5;
-  carried.upper = 0.5;
+  model.links[1].from_center.setZero();
+  model.links[driven].damping = -1; /* DAMPING_OF_MOTOR */
+  model.links[driven].target_speed = speed;
+  model.links[1 - driven].lower = -0.5;
+  model.links[1 - driven].upper = 0.5;
   Tree tree(model);
   tree.set(rest_of(model));
   tree.run(1.0 / 240, 1, 1);
-  CHECK(tree.get().v[0] > 900); /* the motor feels the other arm from the next pass on */
-  CHECK(std::abs(tree.get().v[1]) < 1e-6);
-  CHECK(tree.get().q[1][0] == Approx(-0.5).margin(1e-6));
+  return tree.get();
+}
+
+} // namespace
+
+TEST_CASE("articulations: a stop that another joint's motor brings into reach acts in the same pass", "[articulations]")
+{
+  const TreeState s = stopped_rods(0, 1000);
+  CHECK(s.v[0] > 900); /* the motor feels the other arm from the next pass on */
+  CHECK(std::abs(s.v[1]) < 1e-6);
+  CHECK(s.q[1][0] == Approx(-0.5).margin(1e-6));
 }
 
 /* The sweep has passed the stop when it comes to the motor. */
 TEST_CASE("articulations: a stop nearer to the root than the motor that brings it into reach acts in the same pass",
           "[articulations]")
 {
-  TreeModel model = rods(2);
-  model.gravity.setZero();
-  LinkModel &stopped = model.links[0], &driven = model.links[1];
-  driven.damping = -1; /* DAMPING_OF_MOTOR */
-  driven.target_speed = 3000;
-  driven.from_center.setZero();
-  stopped.lower = -0.5;
-  stopped.upper = 0.5;
-  Tree tree(model);
-  tree.set(rest_of(model));
-  tree.run(1.0 / 240, 1, 1);
-  CHECK(tree.get().v[1] > 1000);
-  CHECK(tree.get().q[0][0] == Approx(-0.5).margin(1e-6));
+  const TreeState s = stopped_rods(1, 3000);
+  CHECK(s.v[1] > 1000);
+  CHECK(s.q[0][0] == Approx(-0.5).margin(1e-6));
 }
 
 TEST_CASE("articulations: friction holds a pendulum, or brakes it by its torque", "[articulations]")

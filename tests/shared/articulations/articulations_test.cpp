@@ -172,15 +172,30 @@ TEST_CASE("articulations: inverse dynamics undo the accelerations of forces", "[
   });
 }
 
+namespace {
+
+/* A tree that is prepared for a substep, and its mass matrix in double precision. */
+struct PreparedTree {
+  explicit PreparedTree(const Case &c)
+      : tree(c.model), dense(c.model, c.state),
+        inverse(dense.mass_matrix(h).ldlt().solve(Dense::Identity(c.model.size(), c.model.size())))
+  {
+    tree.set(c.state);
+    tree.prepare(h);
+  }
+
+  static constexpr double h = 0.01;
+  Tree tree;
+  DenseTree dense;
+  Dense inverse;
+};
+
+} // namespace
+
 TEST_CASE("articulations: impulses on links move the whole tree as its inverse mass matrix says", "[articulations]")
 {
   for_random_trees(true, [](Random &random, const Case &c) {
-    constexpr double h = 0.01;
-    Tree tree(c.model);
-    tree.set(c.state);
-    tree.prepare(h);
-    const DenseTree dense(c.model, c.state);
-    const Dense inverse = dense.mass_matrix(h).ldlt().solve(Dense::Identity(c.model.size(), c.model.size()));
+    auto [tree, dense, inverse] = PreparedTree(c);
     Column expected = Column::Zero(c.model.size());
     for (int n = 0; n < 3; ++n) {
       const uint link = random.below(tree.t.links), other = random.below(tree.t.links);
@@ -201,12 +216,7 @@ TEST_CASE("articulations: impulses on links move the whole tree as its inverse m
 TEST_CASE("articulations: a sweep sees at each link and joint all that it has pushed before", "[articulations]")
 {
   for_random_trees(true, [](Random &random, const Case &c) {
-    constexpr double h = 0.01;
-    Tree tree(c.model);
-    tree.set(c.state);
-    tree.prepare(h);
-    const DenseTree dense(c.model, c.state);
-    const Dense inverse = dense.mass_matrix(h).ldlt().solve(Dense::Identity(c.model.size(), c.model.size()));
+    auto [tree, dense, inverse] = PreparedTree(c);
     const uint pushed = random.below(tree.t.links); /* before the sweep */
     const Column first = random_column(random, 6);
     push_link(&tree.t, pushed, force_of(first));
@@ -237,12 +247,7 @@ TEST_CASE("articulations: the inverse inertia of a link is J M^-1 J^T, that of a
           "[articulations]")
 {
   for_random_trees(true, [](Random &, const Case &c) {
-    constexpr double h = 0.01;
-    Tree tree(c.model);
-    tree.set(c.state);
-    tree.prepare(h);
-    const DenseTree dense(c.model, c.state);
-    const Dense inverse = dense.mass_matrix(h).ldlt().solve(Dense::Identity(c.model.size(), c.model.size()));
+    auto [tree, dense, inverse] = PreparedTree(c);
     for (uint k = 0; k < tree.t.links; ++k) {
       const auto j = dense.jacobian().middleRows<6>(6 * int(k));
       const Dense expected = j * inverse * j.transpose();
