@@ -535,6 +535,7 @@ typedef struct {
   BUFFER(link_row, float4, row)                                                                                        \
   BUFFER(link_range, float4, range)                                                                                    \
   BUFFER(link_body, uint, body)                                                                                        \
+  BUFFER(link_freedom, uint, freedom)                                                                                  \
   BUFFER(articulation_place, uint, place)                                                                              \
   BUFFER(articulation_ground, float4, ground)                                                                          \
   BUFFER(body_link, uint, of_body)
@@ -545,6 +546,8 @@ typedef struct {
   BUFFER(link_root, float4, root)                                                                                      \
   BUFFER(link_work, float4, work)                                                                                      \
   BUFFER(link_next, uint, next)                                                                                        \
+  BUFFER(link_path, float4, path)                                                                                      \
+  BUFFER(tree_change, memory_real, change)                                                                             \
   BUFFER(tree_contact, uint, contact)                                                                                  \
   BUFFER(tree_colors, uint, colors)
 

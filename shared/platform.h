@@ -31,6 +31,7 @@
 #define CONSTANT_TABLE __constant
 #define SHARED static inline
 #define FORCE_INLINE static inline
+#define CALLED SHARED
 
 #define ATOMIC_ADD(pointer, value) atomic_add((pointer), (value))
 #define ATOMIC_MAX(pointer, value) atomic_max((pointer), (value))
@@ -57,6 +58,7 @@ typedef unsigned short half_word;
 #define LOCAL
 #define CONSTANT_TABLE
 #define SHARED static inline
+#define CALLED SHARED /* in minicl/lanes.h a function that is not inlined */
 /* Optimised builds inline such a function into each kernel that calls it, as devices do. A constant that a kernel
  * passes then costs nothing, and the state of a search stays in registers. A debug build keeps it a function, for
  * gdb. */

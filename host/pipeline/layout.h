@@ -18,14 +18,15 @@ struct Sizes {
   HullSizes hulls;
   TreeSizes trees;
   uint32_t joints = 0;
-  uint32_t joint_axes = 0;   /* the most of one joint */
+  uint32_t joint_axes = 0; /* the most of one joint */
   uint32_t couplings = 0;
   uint32_t articulations = 0;
   uint32_t links = 0;        /* of all articulations */
+  uint32_t path_entries = 0; /* of each of these */
   uint32_t joined_pairs = 0; /* entries of their table */
-  uint32_t pairs = 0;      /* capacity */
-  uint32_t cells = 0;      /* capacity */
-  uint32_t candidates = 0; /* capacity; 0 without the broadphase trees */
+  uint32_t pairs = 0;        /* capacity */
+  uint32_t cells = 0;        /* capacity */
+  uint32_t candidates = 0;   /* capacity; 0 without the broadphase trees */
   Features features = 0;
 };
 

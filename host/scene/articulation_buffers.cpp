@@ -58,6 +58,7 @@ public:
   LinkTables(const Scene &scene, const JointedLinks &links) : scene_(scene), places_(links.places)
   {
     code_.resize(links.count);
+    freedom_.resize(links.count * PATH_WORDS);
     row_.resize(links.count * LINK_ROWS);
     range_.resize(links.count);
   }
@@ -69,6 +70,7 @@ public:
   void stage(StagedUploads &uploads)
   {
     uploads.add(Buffer::link_code, std::move(code_));
+    uploads.add(Buffer::link_freedom, std::move(freedom_));
     uploads.add(Buffer::link_row, std::move(row_));
     uploads.add(Buffer::link_range, std::move(range_));
     uploads.add(Buffer::articulation_ground, std::move(ground_));
@@ -79,6 +81,7 @@ private:
   {
     const LinkRows rows = rows_of_link(scene_, l);
     code_[place.row(1, k, 0)] = rows.code;
+    for (size_t word = 0; word < PATH_WORDS; ++word) freedom_[place.row(PATH_WORDS, k, word)] = rows.freedom[word];
     for (size_t row = 0; row < LINK_MOMENTS; ++row) row_[place.row(LINK_ROWS, k, row)] = float4_of(rows.numbers[row]);
     const LinkAxis axis = link_axis_of(scene_, l.axis, l.link.body);
     for (size_t row = 0; row < axis.link.size(); ++row)
@@ -91,7 +94,7 @@ private:
 
   const Scene &scene_;
   const std::vector<TreePlace> &places_;
-  std::vector<uint32_t> code_;
+  std::vector<uint32_t> code_, freedom_;
   std::vector<float4> row_, range_, ground_;
 };
 
@@ -197,6 +200,17 @@ void note_base(const Joint &joint, uint32_t root, JointedLinks &links)
   if (base != no_body) links.bases[base] = true;
 }
 
+/* A tree that nothing can move has no contacts to solve, and one freedom for all that. */
+void note_freedoms(const std::vector<OrderedLink> &tree, JointedLinks &links)
+{
+  const ArticulationLink &last = tree.back().link;
+  const uint32_t freedoms = last.first_velocity + last.velocities;
+  links.freedoms.push_back(freedoms <= TREE_FREEDOMS ? std::max(freedoms, 1u) : 0);
+  if (links.freedoms.back() == 0) return;
+  for (const OrderedLink &l : tree)
+    links.path_entries = std::max({links.path_entries, l.path_entries + l.link.velocities, 1u});
+}
+
 } // namespace
 
 JointedLinks links_of(const Scene &scene)
@@ -210,7 +224,9 @@ JointedLinks links_of(const Scene &scene)
   links.bases.resize(scene.bodies.size());
   for (const Articulation &articulation : scene.articulations) {
     links.trees.emplace_back();
-    for (const OrderedLink &l : ordered_links_of(scene, articulation, scene.name)) {
+    const std::vector<OrderedLink> tree = ordered_links_of(scene, articulation, scene.name);
+    note_freedoms(tree, links);
+    for (const OrderedLink &l : tree) {
       if (l.link.joint != ArticulationLink::none) {
         if (l.link.parent == ArticulationLink::none) note_base(scene.joints[l.link.joint], l.link.body, links);
         links.of_joint[l.link.joint] = static_cast<uint32_t>(links.trees.size() - 1);
@@ -319,7 +335,9 @@ void stage_bodies_of_links(StagedUploads &uploads, const JointedLinks &links, st
     const bool is_out = std::any_of(tree.begin(), tree.end(), [&](uint32_t slot) {
       return status_of(status, slot) == BodyStatus::quarantined || index_of_body[slot] >= awake;
     });
-    place.insert(place.end(), {at.block, at.item, at.stride, is_out ? 0 : at.links});
+    const uint32_t freedoms = links.freedoms[number];
+    place.insert(place.end(), {at.block, at.item, at.stride, is_out ? 0 : at.links,
+                               freedoms > 0 ? links.path_entries : 0, freedoms});
     for (uint32_t k = 0; k < tree.size(); ++k) {
       const uint32_t index = index_of_body[tree[k]];
       body[at.row(1, k, 0)] = index;

@@ -201,7 +201,19 @@ private:
       l.link.first_velocity = first;
       l.link.velocities = l.is_free ? 6 : l.type == JointType::ball ? 3 : l.type == JointType::fixed ? 0 : 1;
       first += l.link.velocities;
+      number_path(l);
     }
+  }
+
+  /* Velocities beyond the 64th have no bits; trees that have such are not solved by paths. */
+  void number_path(OrderedLink &l) const
+  {
+    for (uint32_t n = l.link.first_velocity; n < l.link.first_velocity + l.link.velocities && n < 64; ++n)
+      l.path |= uint64_t{1} << n;
+    if (l.link.parent == ArticulationLink::none) return;
+    const OrderedLink &parent = links_[l.link.parent];
+    l.path |= parent.path;
+    l.path_entries = parent.path_entries + parent.link.velocities;
   }
 
   const Scene &scene_;

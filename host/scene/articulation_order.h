@@ -17,6 +17,8 @@ struct OrderedLink {
   Quat orientation_a{0, 0, 0, 1}, orientation_b{0, 0, 0, 1};
   JointAxis axis; /* of one degree of freedom, or of all three of a ball */
   float armature = 0;
+  uint64_t path = 0;         /* a bit for each velocity of the joints between it and the root, its own among them */
+  uint32_t path_entries = 0; /* how many come before its own */
 };
 
 /* Whether the joint is a ball for a tree: one that holds all directions and no rotation. */

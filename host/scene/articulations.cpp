@@ -109,10 +109,15 @@ struct Posed {
          root.data(),
          work.data(),
          next.data(),
+         nullptr, /* no table of paths */
+         nullptr,
+         nullptr,
          0u,
          0u,
          1u,
          uint(links),
+         0u,
+         0u,
          0u,
          uint(links)};
     for (uint k = 0; k < links; ++k) {

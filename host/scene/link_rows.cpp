@@ -57,6 +57,7 @@ LinkRows rows_of_link(const Scene &scene, const OrderedLink &l)
   const uint32_t parent = l.link.parent == ArticulationLink::none ? LINK_NO_PARENT : l.link.parent;
   LinkRows rows{};
   rows.code = parent | joint_code(l) << LINK_JOINT_SHIFT;
+  rows.freedom = {uint32_t(l.path & UINT32_MAX), uint32_t(l.path >> 32), l.path_entries, l.link.first_velocity};
   rows.numbers[LINK_FRAME_A] = row_of(l.position_a, l.armature);
   rows.numbers[LINK_FRAME_A_ORIENTATION] = row_of(rotation_of(l.orientation_a));
   rows.numbers[LINK_FRAME_B] = row_of(l.position_b, body.mass);

@@ -13,6 +13,7 @@ namespace tandem {
 
 struct LinkRows {
   uint32_t code;                                        /* joint and parent: shared/articulations/joint_types.h */
+  std::array<uint32_t, PATH_WORDS> freedom;             /* of a tree of more than TREE_FREEDOMS none of its bits */
   std::array<std::array<double, 4>, LINK_AXIS> numbers; /* the rows before LINK_AXIS; no drive is implicit */
   std::array<double, 3> ground;                         /* of a root that is held: its frame a in the world */
 };

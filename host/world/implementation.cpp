@@ -49,9 +49,11 @@ World::Implementation::Implementation(const Scene &given, const Settings &chosen
 
 namespace {
 
-/* Whether no world has two articulations. The bodies of a batch follow each other by world. */
+/* Whether no world has two articulations, and all of them have tables of paths, so that none walks. The bodies of a
+ * batch follow each other by world. */
 bool are_apart(const JointedLinks &links, size_t bodies_of_world)
 {
+  if (std::find(links.freedoms.begin(), links.freedoms.end(), 0u) != links.freedoms.end()) return false;
   std::set<size_t> worlds;
   return std::all_of(links.trees.begin(), links.trees.end(), [&](const std::vector<uint32_t> &tree) {
     return tree.empty() || worlds.insert(tree.front() / bodies_of_world).second;
@@ -135,6 +137,7 @@ Sizes World::Implementation::sizes() const
           .couplings = static_cast<uint32_t>(scene.couplings.size()),
           .articulations = static_cast<uint32_t>(scene.articulations.size()),
           .links = links.count,
+          .path_entries = links.path_entries,
           .joined_pairs = joint_graph.joined_pairs,
           .pairs = plan.capacity_pairs,
           .cells = plan.capacity_cells,

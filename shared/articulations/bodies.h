@@ -18,8 +18,9 @@
 /* Records of tree_contact and of tree_colors (tree_contacts.h). */
 #define TREE_COLORS 64u
 #define TREE_COLOR_WORDS 4u
-/* Words of articulation_place: block, item, stride (tree.h), and the number of links. */
-#define PLACE_WORDS 4u
+/* Words of articulation_place: block, item, stride (tree.h), the number of links; of a tree that has a table of paths
+ * the numbers of entries of a path and of freedoms. */
+#define PLACE_WORDS 6u
 
 SHARED articulation articulation_at(read_links links, write_link_states states, uint_lanes number)
 {
@@ -32,10 +33,15 @@ SHARED articulation articulation_at(read_links links, write_link_states states, 
   t.root = states.root;
   t.work = states.work;
   t.next = states.next;
+  t.freedom = links.freedom;
+  t.path = states.path;
+  t.change = states.change;
   t.block = load_uint(links.place, place);
   t.item = load_uint(links.place, place + 1u);
   t.stride = load_uint(links.place, place + 2u);
   t.links = load_uint(links.place, place + 3u);
+  t.path_entries = load_uint(links.place, place + 4u);
+  t.freedoms = load_uint(links.place, place + 5u);
   t.number = number;
   t.most_links = 0u;
   while (any_of((uint_lanes)t.most_links < t.links)) ++t.most_links;
@@ -167,8 +173,10 @@ SHARED void read_link(read_links links, read_bodies bodies, const articulation *
   for (uint row = (uint)STATE_JOINT_FORCE; row < (uint)STATE_ROWS; ++row) store_state(l.exists, t, l.k, row, none);
 }
 
-SHARED void read_articulation(read_links links, read_bodies bodies, const articulation *t)
+CALLED void read_articulation(read_links links, read_bodies bodies, const articulation *tree)
 {
+  articulation own = *tree;
+  const articulation *t = &own;
   read_root(links, bodies, t);
   for (uint k = 0; k < t->most_links; ++k) read_link(links, bodies, t, tree_link_of(t, k));
 }
@@ -183,8 +191,10 @@ SHARED void write_velocity(read_links links, const articulation *t, tree_link l,
   m.angular = now.angular;
   store_velocity_if(l.exists, solver_velocity, body, m);
 }
-SHARED void write_velocities(read_links links, const articulation *t, GLOBAL float4 *solver_velocity)
+CALLED void write_velocities(read_links links, const articulation *tree, GLOBAL float4 *solver_velocity)
 {
+  articulation own = *tree;
+  const articulation *t = &own;
   for (uint k = 0; k < t->most_links; ++k) write_velocity(links, t, tree_link_of(t, k), solver_velocity);
 }
 
@@ -201,8 +211,10 @@ SHARED void write_pose(read_links links, read_bodies bodies, const articulation 
   store_float4_if(l.exists, delta_pose, body * 2u + 1u, extend(turned_by, R(0.0)));
   store_float4_if(l.exists, orientation, body, quat_to_vec4(q));
 }
-SHARED void write_bodies(read_links links, read_bodies bodies, const articulation *t, write_moved_bodies moved)
+CALLED void write_bodies(read_links links, read_bodies bodies, const articulation *tree, write_moved_bodies moved)
 {
+  articulation own = *tree;
+  const articulation *t = &own;
   for (uint k = 0; k < t->most_links; ++k) {
     tree_link l = tree_link_of(t, k);
     write_velocity(links, t, l, moved.velocity);

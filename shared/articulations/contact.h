@@ -1,29 +1,34 @@
 /* contact.h - contacts of which a side is a link: the rows of solve/contact.h, with the response of the tree.
  *
- *   load     velocities with all that is pending in the trees      O(depth)
- *   solve    friction at the centre, then the normals as a block, against the inverse inertias of the sides
- *   pass on  the sum of the impulses, through the trees            O(depth)
+ *   load     the velocity and the inverse inertia of the two bodies as one (relative.h)
+ *   solve    friction at the centre, then the normals as a block
+ *   pass on  the sum of the impulses, through the trees
  *
  * An articulation is one node of the graph of contacts, so a contact of a colour has its trees for itself, and every
- * contact sees all that the others have done: nothing lags. Two links of one tree push each other through it as well.
- * What each row leaves out then, at most doubles its response, so their masses are half of what they were apart
- * (|2 x C y| <= x A x + y B y), and the velocities are read again between friction and normals.
+ * contact sees all that the others have done: nothing lags. A tree that has its contacts for itself solves them by a
+ * table (tree_contacts.h). Contacts of other trees walk to the root and back for velocities and pushes, O(depth) each.
+ * Two links of one tree push each other through it as well. What each row of a walking contact leaves out then, at most
+ * doubles its response, so their masses are half of what they were apart (|2 x C y| <= x A x + y B y), and the
+ * velocities are read again between friction and normals.
  */
 #ifndef TANDEM_SHARED_ARTICULATIONS_CONTACT_H
 #define TANDEM_SHARED_ARTICULATIONS_CONTACT_H
 
-#include "shared/articulations/row.h"
+#include "shared/articulations/relative.h"
 #include "shared/solve/contact.h"
 
 typedef struct {
   mask wanted; /* others write nothing */
-  pushed_pair ends;
-  contact shape; /* as the bodies alone would have it; the ends have velocities and inertias */
+  pushed_side a, b;
+  mask walks_within; /* both are links of one tree, which is walked */
+  relative_body body;
+  contact shape; /* as the bodies alone would have it */
   arm_shift shift;
   vec4 offset, center_a, center_b;
   delta_pose moved;
 } link_contact;
 
+/* pass: PASS_WARM_STARTING loads no velocities of links, as for those who have them otherwise. */
 SHARED link_contact load_link_contact(mask wanted, GLOBAL const Parameters *parameters, read_contacts contacts,
                                       read_patches patches, read_turning_bodies bodies, read_links links,
                                       write_link_states states, GLOBAL const float4 *solver_velocity, uint pass,
@@ -35,42 +40,89 @@ SHARED link_contact load_link_contact(mask wanted, GLOBAL const Parameters *para
   c.shape.velocity_a.inverse_mass = zero_if(!wanted, c.shape.velocity_a.inverse_mass);
   c.shape.velocity_b.inverse_mass = zero_if(!wanted, c.shape.velocity_b.inverse_mass);
   mask links_a = wanted & is_link(links.of_body, c.shape.a), links_b = wanted & is_link(links.of_body, c.shape.b);
-  pushed_side a =
-      pushed_side_of(links_a, links, states, c.shape.a, c.shape.velocity_a, c.shape.inertia_a, c.shape.locks_a, pass);
-  pushed_side b =
-      pushed_side_of(links_b, links, states, c.shape.b, c.shape.velocity_b, c.shape.inertia_b, c.shape.locks_b, pass);
-  c.ends = pushed_pair_of(a, b);
+  c.a = pushed_side_of(links_a, links, states, c.shape.a, c.shape.velocity_a, c.shape.inertia_a, c.shape.locks_a, pass);
+  c.b = pushed_side_of(links_b, links, states, c.shape.b, c.shape.velocity_b, c.shape.inertia_b, c.shape.locks_b, pass);
+  c.walks_within = c.a.is_link & c.b.is_link & (c.a.tree.number == c.b.tree.number);
   c.moved = load_delta_pose(bodies.delta, c.shape);
   c.shift = shift_of_contact(c.shape, c.moved.translation);
   c.offset = load_float4(patches.offset, i);
   c.center_a = load_float4(patches.center, i);
   c.center_b = center_of_b(c.center_a, c.offset);
+  c.body = relative_body_of(c.b.is_link, add(xyz(c.offset), subtract(c.shift.a, c.shift.b)));
   return c;
 }
 
-/* What is within one tree is bounded, not computed. */
-SHARED real response_of_rows(const link_contact *c, row_of_pair first, row_of_pair second)
+/* --- by walks ------------------------------------------------------------------------------------------------- */
+SHARED void see_velocities(link_contact *c)
 {
-  real apart = response_apart(&c->ends, first, second);
-  return choose(c->ends.is_within, R(2.0) * apart, apart);
+  mask is_b = c->body.is_b;
+  c->body.velocity = motion_seen(&c->body, choose_motion(is_b, c->b.velocity, c->a.velocity),
+                                 choose_motion(is_b, c->a.velocity, c->b.velocity));
+}
+
+/* What is within one tree is bounded, not computed. */
+SHARED void see_sides(link_contact *c)
+{
+  mask is_b = c->body.is_b;
+  symmetric6 seen = choose_symmetric6(is_b, c->b.inverse, c->a.inverse),
+             other = choose_symmetric6(is_b, c->a.inverse, c->b.inverse);
+  see_velocities(c);
+  symmetric6 sum = add_symmetric6(seen, symmetric6_at(other, c->body.to_seen));
+  c->body.inverse = choose_symmetric6(c->walks_within, add_symmetric6(sum, sum), sum);
+}
+
+SHARED void push_sides(link_contact *c)
+{
+  mask is_b = c->body.is_b;
+  spatial_force seen = c->body.pushed, other = push_back(&c->body, seen);
+  push_side_of_pair(&c->a, choose_force(is_b, other, seen));
+  push_side_of_pair(&c->b, choose_force(is_b, seen, other));
+  c->body.pushed = no_force();
+}
+
+/* Within one tree each side has what the other one pushed it with. */
+SHARED void push_each_other_within(link_contact *c)
+{
+  mask moved = c->walks_within & is_push(c->body.pushed);
+  if (!any_of(moved)) return;
+  link_contact pushed = *c;
+  push_sides(&pushed);
+  push_into_tree_if(moved, &pushed.a);
+  push_into_tree_if(moved, &pushed.b);
+  pushed.a.velocity = pending_velocity_if(moved, &pushed.a.tree, pushed.a.k);
+  pushed.b.velocity = pending_velocity_if(moved, &pushed.b.tree, pushed.b.k);
+  see_velocities(&pushed);
+  c->body = choose_relative(moved, pushed.body, c->body);
+}
+
+SHARED void store_sides(link_contact *c, GLOBAL float4 *solver_velocity)
+{
+  push_sides(c);
+  store_side_of_pair(&c->a, solver_velocity);
+  store_side_of_pair(&c->b, solver_velocity);
 }
 
 /* --- friction ------------------------------------------------------------------------------------------------- */
 SHARED real twist_of_contact(link_contact *c, real old, real limit)
 {
-  row_of_pair r = row_about(c->shape.normal);
-  real mass = inverse_or_zero(response_of_rows(c, r, r));
-  real twist = clamped(old - mass * speed_of_row(&c->ends, r), -limit, limit);
-  push_row(&c->ends, r, twist - old);
+  spatial_force r = twist_seen(&c->body, c->shape.normal);
+  real mass = inverse_or_zero(response_seen(&c->body, r, r));
+  real twist = clamped(old - mass * power_of(r, c->body.velocity), -limit, limit);
+  push_seen(&c->body, scaled_force(r, twist - old));
   return twist;
 }
 
 /* As friction_mass in setup/contact.h, where the tree stands now. */
-SHARED real sliding_mass(const link_contact *c, row_of_pair first, row_of_pair second)
+SHARED real sliding_mass(const relative_body *body, spatial_force first, spatial_force second)
 {
-  real one = response_of_rows(c, first, first), other = response_of_rows(c, second, second);
-  real mixed = response_of_rows(c, first, second), difference = one - other;
+  real one = response_seen(body, first, first), other = response_seen(body, second, second);
+  real mixed = response_seen(body, first, second), difference = one - other;
   return inverse_or_zero(R(0.5) * (one + other + square_root(difference * difference + R(4.0) * mixed * mixed)));
+}
+
+SHARED spatial_force row_at_center(const link_contact *c, vec3 direction)
+{
+  return row_seen(&c->body, add(xyz(c->center_a), c->shift.a), add(xyz(c->center_b), c->shift.b), direction);
 }
 
 /* impulse: along the tangents and about the normal; the radius of the patch. */
@@ -79,44 +131,50 @@ SHARED vec4 solve_link_friction(link_contact *c, vec4 impulse, real normal_impul
   real limit = c->shape.friction * normal_impulse_sum;
   real twist = twist_of_contact(c, impulse.z, limit * impulse.w);
   tangents t = tangents_of(c->shape.normal);
-  vec3 arm_a = add(xyz(c->center_a), c->shift.a), arm_b = add(xyz(c->center_b), c->shift.b);
-  row_of_pair first = row_along(arm_a, arm_b, t.first), second = row_along(arm_a, arm_b, t.second);
-  real mass = sliding_mass(c, first, second);
-  real x = impulse.x - mass * speed_of_row(&c->ends, first), y = impulse.y - mass * speed_of_row(&c->ends, second);
+  spatial_force first = row_at_center(c, t.first), second = row_at_center(c, t.second);
+  real mass = sliding_mass(&c->body, first, second);
+  real x = impulse.x - mass * power_of(first, c->body.velocity),
+       y = impulse.y - mass * power_of(second, c->body.velocity);
   real squared = x * x + y * y;
   mask slips = squared > limit * limit;
   real shrink = choose(slips, limit / square_root(choose(slips, squared, (real)R(1.0))), (real)R(1.0));
   x = x * shrink;
   y = y * shrink;
-  push_row(&c->ends, row_along(arm_a, arm_b, add(scale(t.first, x - impulse.x), scale(t.second, y - impulse.y))),
-           R(1.0));
+  push_seen(&c->body, add_forces(scaled_force(first, x - impulse.x), scaled_force(second, y - impulse.y)));
   return make_vec4(x, y, twist, impulse.w);
 }
 
 /* --- normals -------------------------------------------------------------------------------------------------- */
 typedef struct {
-  row_of_pair row[4];
+  spatial_force row[4];
   real mass[4], impulse[4], separation[4];
 } link_normals;
 
-SHARED row_of_pair load_normal_row(const link_contact *c, read_patches patches, point_planes planes, uint k,
-                                   uint_lanes i)
+typedef struct {
+  vec3 a, b;
+} point_arms;
+
+SHARED point_arms load_point_arms(const link_contact *c, read_patches patches, point_planes planes, uint k,
+                                  uint_lanes i)
 {
   vec3 arm_a = load_arm_of_a(patches.points, planes, k, i), arm_b = subtract(arm_a, xyz(c->offset));
-  return row_along(add(arm_a, c->shift.a), add(arm_b, c->shift.b), c->shape.normal);
+  point_arms arms = {add(arm_a, c->shift.a), add(arm_b, c->shift.b)};
+  return arms;
 }
 
 SHARED link_normals load_link_normals(const link_contact *c, read_patches patches, point_planes planes, vec4 impulses,
                                       uint_lanes i)
 {
   link_normals s;
+  vec3 n = c->shape.normal;
   for (uint k = 0; k < 4u; ++k) {
-    s.row[k] = load_normal_row(c, patches, planes, k, i);
+    point_arms arms = load_point_arms(c, patches, planes, k, i);
+    s.row[k] = row_seen(&c->body, arms.a, arms.b, n);
     mask used = load_point_mass(patches.points, planes, k, i) > R(0.0);
-    s.mass[k] = choose(used, inverse_or_zero(response_of_rows(c, s.row[k], s.row[k])), (real)R(0.0));
+    s.mass[k] = choose(used, inverse_or_zero(response_seen(&c->body, s.row[k], s.row[k])), (real)R(0.0));
     s.impulse[k] = component(impulses, k);
-    s.separation[k] = load_separation(patches.points, planes, k, i) + dot3(c->shape.normal, c->moved.translation) +
-                      (dot3(s.row[k].b.moment, c->moved.rotation_b) - dot3(s.row[k].a.moment, c->moved.rotation_a));
+    s.separation[k] = load_separation(patches.points, planes, k, i) + dot3(n, c->moved.translation) +
+                      (dot3(cross3(arms.b, n), c->moved.rotation_b) - dot3(cross3(arms.a, n), c->moved.rotation_a));
   }
   return s;
 }
@@ -125,20 +183,20 @@ SHARED link_normals load_link_normals(const link_contact *c, read_patches patche
 SHARED void block_solve_link_normals(link_contact *c, link_normals *s, const real *target)
 {
   real change[4], own = R(0.0);
-  row_of_pair sum = {no_force(), no_force()};
+  spatial_force sum = no_force();
   for (uint k = 0; k < 4u; ++k) {
     mask used = s->mass[k] > R(0.0);
     change[k] = choose(used, maximum(target[k], R(0.0)) - s->impulse[k], (real)R(0.0));
     own = own + change[k] * (target[k] - s->impulse[k]) / choose(used, s->mass[k], (real)R(1.0));
-    sum = add_rows(sum, scaled_row(s->row[k], change[k]));
+    sum = add_forces(sum, scaled_force(s->row[k], change[k]));
   }
-  real whole = response_of_rows(c, sum, sum);
+  real whole = response_seen(&c->body, sum, sum);
   real share = minimum(own / choose(whole > R(0.0), whole, (real)R(1.0)), R(2.0));
   mask pulls = s->impulse[0] + share * change[0] < R(0.0);
   for (uint k = 1; k < 4u; ++k) pulls = pulls | (s->impulse[k] + share * change[k] < R(0.0));
   share = choose(pulls, minimum(share, R(1.0)), share);
   for (uint k = 0; k < 4u; ++k) s->impulse[k] = s->impulse[k] + share * change[k];
-  push_row(&c->ends, sum, share);
+  push_seen(&c->body, scaled_force(sum, share));
 }
 
 SHARED void solve_link_normals(GLOBAL const Parameters *parameters, link_contact *c, link_normals *s, real slop,
@@ -147,8 +205,8 @@ SHARED void solve_link_normals(GLOBAL const Parameters *parameters, link_contact
   softness soft = softness_of(parameters, c->shape);
   real target[4];
   for (uint k = 0; k < 4u; ++k)
-    target[k] = normal_impulse(parameters, soft, slop, s->separation[k], speed_of_row(&c->ends, s->row[k]), s->mass[k],
-                               s->impulse[k], biased);
+    target[k] = normal_impulse(parameters, soft, slop, s->separation[k], power_of(s->row[k], c->body.velocity),
+                               s->mass[k], s->impulse[k], biased);
   block_solve_link_normals(c, s, target);
 }
 
@@ -160,7 +218,7 @@ SHARED void bounce_link_normals(link_contact *c, link_normals *s, vec4 target_ve
     real target = component(target_velocity, k);
     mask applies = (target >= R(0.0)) & (component(highest, k) > R(0.0));
     wanted[k] =
-        choose(applies, s->impulse[k] - s->mass[k] * (speed_of_row(&c->ends, s->row[k]) - target), s->impulse[k]);
+        choose(applies, s->impulse[k] - s->mass[k] * (power_of(s->row[k], c->body.velocity) - target), s->impulse[k]);
   }
   block_solve_link_normals(c, s, wanted);
 }
@@ -170,25 +228,33 @@ SHARED vec4 impulses_of_normals(const link_normals *s)
   return make_vec4(s->impulse[0], s->impulse[1], s->impulse[2], s->impulse[3]);
 }
 
-/* --- kernels -------------------------------------------------------------------------------------------------- */
+/* --- passes --------------------------------------------------------------------------------------------------- */
 /* All impulses of the contact. */
-SHARED row_of_pair row_of_impulses(const link_contact *c, const row_of_pair *normals, vec4 normal, vec4 friction)
+SHARED spatial_force sum_of_impulses(const link_contact *c, const spatial_force *normals, vec4 normal, vec4 friction)
 {
   tangents t = tangents_of(c->shape.normal);
-  vec3 slide = add(scale(t.first, friction.x), scale(t.second, friction.y));
-  row_of_pair r = row_along(add(xyz(c->center_a), c->shift.a), add(xyz(c->center_b), c->shift.b), slide);
-  r = add_rows(r, row_about(scale(c->shape.normal, friction.z)));
-  for (uint k = 0; k < 4u; ++k) r = add_rows(r, scaled_row(normals[k], component(normal, k)));
-  return r;
+  spatial_force sum = row_at_center(c, add(scale(t.first, friction.x), scale(t.second, friction.y)));
+  sum = add_forces(sum, twist_seen(&c->body, scale(c->shape.normal, friction.z)));
+  for (uint k = 0; k < 4u; ++k) sum = add_forces(sum, scaled_force(normals[k], component(normal, k)));
+  return sum;
+}
+
+/* Adds to what the next substep starts with. */
+SHARED void add_warm_start(const link_contact *c, spatial_force seen, real inverse_substep,
+                           GLOBAL float4 *warm_start_impulse)
+{
+  mask is_b = c->body.is_b;
+  spatial_force other = push_back(&c->body, seen);
+  add_warm_start_of_side(&c->a, choose_force(is_b, other, seen), inverse_substep, warm_start_impulse);
+  add_warm_start_of_side(&c->b, choose_force(is_b, seen, other), inverse_substep, warm_start_impulse);
 }
 
 SHARED vec4 solve_link_friction_if(mask rough, link_contact *c, vec4 friction, vec4 normal)
 {
-  link_contact slid = *c;
-  vec4 solved = solve_link_friction(&slid, friction, (normal.x + normal.y) + (normal.z + normal.w));
-  c->ends.a = choose_side(rough, slid.ends.a, c->ends.a);
-  c->ends.b = choose_side(rough, slid.ends.b, c->ends.b);
-  push_each_other_if(rough, &c->ends);
+  relative_body body = c->body;
+  vec4 solved = solve_link_friction(c, friction, (normal.x + normal.y) + (normal.z + normal.w));
+  c->body = choose_relative(rough, c->body, body);
+  push_each_other_within(c);
   return choose4(rough, solved, friction);
 }
 
@@ -199,16 +265,15 @@ SHARED void solve_rounds_of_normals(GLOBAL const Parameters *parameters, link_co
   solve_link_normals(parameters, c, s, slop, biased);
   mask at_impact = c->shape.follows == R(0.0);
   if (!any_of(at_impact)) return;
-  pushed_side a = c->ends.a, b = c->ends.b;
+  relative_body body = c->body;
   vec4 once = impulses_of_normals(s);
   for (uint round = 0; round < IMPACT_ROUNDS; ++round) solve_link_normals(parameters, c, s, slop, biased);
-  c->ends.a = choose_side(at_impact, c->ends.a, a);
-  c->ends.b = choose_side(at_impact, c->ends.b, b);
+  c->body = choose_relative(at_impact, c->body, body);
   vec4 often = choose4(at_impact, impulses_of_normals(s), once);
   for (uint k = 0; k < 4u; ++k) s->impulse[k] = component(often, k);
 }
 
-/* Rows of impulses are read and written by the kernels below as those of solve/contact.h do. */
+/* Rows of impulses are read and written by the functions below as those of solve/contact.h do. */
 SHARED void solve_link_contact(GLOBAL const Parameters *parameters, link_contact *c, read_patches patches,
                                point_planes planes, write_contact_impulses impulses, GLOBAL float4 *warm_start_impulse,
                                uint pass, uint_lanes i)
@@ -225,19 +290,21 @@ SHARED void solve_link_contact(GLOBAL const Parameters *parameters, link_contact
   store_float4_if(c->wanted, impulses.normal, i, normal);
   keep_highest_impulses_if(c->wanted, parameters, impulses.restitution, planes.stride, normal, i);
   if (pass != (uint)PASS_RELAXING) return;
-  add_warm_start_of_pair(&c->ends, row_of_impulses(c, s.row, normal, friction), parameters->inverse_substep,
-                         warm_start_impulse);
+  add_warm_start(c, sum_of_impulses(c, s.row, normal, friction), parameters->inverse_substep, warm_start_impulse);
 }
 
 SHARED void warm_start_link_contact(GLOBAL const Parameters *parameters, link_contact *c, read_patches patches,
                                     point_planes planes, write_contact_impulses impulses,
                                     GLOBAL float4 *warm_start_impulse, uint_lanes i)
 {
-  row_of_pair normals[4];
-  for (uint k = 0; k < 4u; ++k) normals[k] = load_normal_row(c, patches, planes, k, i);
-  row_of_pair all =
-      row_of_impulses(c, normals, load_float4(impulses.normal, i), load_friction(parameters, impulses.friction, i));
-  add_warm_start_of_pair(&c->ends, all, parameters->inverse_substep, warm_start_impulse);
+  spatial_force normals[4];
+  for (uint k = 0; k < 4u; ++k) {
+    point_arms arms = load_point_arms(c, patches, planes, k, i);
+    normals[k] = row_seen(&c->body, arms.a, arms.b, c->shape.normal);
+  }
+  spatial_force all =
+      sum_of_impulses(c, normals, load_float4(impulses.normal, i), load_friction(parameters, impulses.friction, i));
+  add_warm_start(c, all, parameters->inverse_substep, warm_start_impulse);
 }
 
 /* Contacts of which no point bounces stay as they are. */
@@ -249,14 +316,25 @@ SHARED void bounce_link_contact(link_contact *c, read_patches patches, point_pla
   mask bounces = (target_velocity.x >= R(0.0)) | (target_velocity.y >= R(0.0)) | (target_velocity.z >= R(0.0)) |
                  (target_velocity.w >= R(0.0));
   if (!any_of(bounces)) return;
-  pushed_side a = c->ends.a, b = c->ends.b;
+  relative_body body = c->body;
   link_normals s = load_link_normals(c, patches, planes, load_float4(impulses.normal, i), i);
   for (uint round = 0; round < RESTITUTION_ROUNDS; ++round) bounce_link_normals(c, &s, target_velocity, highest);
-  c->ends.a = choose_side(bounces, c->ends.a, a);
-  c->ends.b = choose_side(bounces, c->ends.b, b);
+  c->body = choose_relative(bounces, c->body, body);
   store_float4_if(c->wanted & bounces, impulses.normal, i, impulses_of_normals(&s));
 }
 
+/* In any pass; the body as the other one sees it has been loaded. */
+SHARED void run_pass_of_link_contact(GLOBAL const Parameters *parameters, link_contact *c, read_patches patches,
+                                     point_planes planes, write_contact_impulses impulses,
+                                     GLOBAL float4 *warm_start_impulse, uint pass, uint_lanes i)
+{
+  if (pass == (uint)PASS_WARM_STARTING)
+    warm_start_link_contact(parameters, c, patches, planes, impulses, warm_start_impulse, i);
+  else if (pass == (uint)PASS_BOUNCING) bounce_link_contact(c, patches, planes, impulses, i);
+  else solve_link_contact(parameters, c, patches, planes, impulses, warm_start_impulse, pass, i);
+}
+
+/* --- kernels -------------------------------------------------------------------------------------------------- */
 /* Whether contacts of the tree are solved by colour: tree_contacts.h. */
 SHARED mask is_mixed(write_link_states states, uint_lanes tree)
 {
@@ -270,18 +348,13 @@ SHARED void solve_link_contact_at(GLOBAL const Parameters *parameters, read_cont
                                   GLOBAL float4 *solver_velocity, GLOBAL float4 *warm_start_impulse, uint pass,
                                   uint_lanes i)
 {
-  point_planes planes = planes_of(counts);
   mask wanted = i != (uint_lanes)INDEX_NONE;
   i = choose(wanted, i, (uint_lanes)0u);
   link_contact c =
       load_link_contact(wanted, parameters, contacts, patches, bodies, links, states, solver_velocity, pass, i);
-  if (pass == (uint)PASS_WARM_STARTING) {
-    warm_start_link_contact(parameters, &c, patches, planes, contact_impulses, warm_start_impulse, i);
-    return;
-  }
-  if (pass == (uint)PASS_BOUNCING) bounce_link_contact(&c, patches, planes, contact_impulses, i);
-  else solve_link_contact(parameters, &c, patches, planes, contact_impulses, warm_start_impulse, pass, i);
-  store_pair(&c.ends, solver_velocity);
+  if (pass != (uint)PASS_WARM_STARTING) see_sides(&c);
+  run_pass_of_link_contact(parameters, &c, patches, planes_of(counts), contact_impulses, warm_start_impulse, pass, i);
+  if (pass != (uint)PASS_WARM_STARTING) store_sides(&c, solver_velocity);
 }
 
 SHARED void solve_link_contacts_item(GLOBAL const Parameters *parameters, read_contacts contacts, read_patches patches,

@@ -133,8 +133,10 @@ SHARED symmetric6 inertia_through_joint(const articulation *t, tree_link l, symm
 }
 
 /* From the inertias of single links in WORK_INERTIA to the articulated ones; that of a free root is inverted. */
-SHARED void factor_tree(const articulation *t)
+CALLED void factor_tree(const articulation *tree)
 {
+  articulation own = *tree;
+  const articulation *t = &own;
   for (uint n = t->most_links; n > 0u; --n) {
     tree_link l = tree_link_of(t, n - 1u);
     symmetric6 s = load_symmetric6(t, l.k);

@@ -46,15 +46,19 @@ SHARED void return_velocity_if(mask wanted, const articulation *t, tree_link l)
 {
   store_state(wanted & l.exists, t, l.k, (uint)STATE_JOINT_VELOCITY, load_work(t, l.k, (uint)WORK_START));
 }
-SHARED void return_velocities_if(mask wanted, const articulation *t)
+CALLED void return_velocities_if(mask wanted, const articulation *tree)
 {
+  articulation own = *tree;
+  const articulation *t = &own;
   for (uint k = 0; k < t->most_links; ++k) return_velocity_if(wanted, t, tree_link_of(t, k));
   store_root(wanted, t, (uint)ROOT_LINEAR_VELOCITY, load_root(t, (uint)ROOT_START));
 }
 
 /* The inertial forces at the velocities that the last round has found, which then return to those of the start. */
-SHARED void load_inertial_forces_of_round(const articulation *t, real h, uint round)
+CALLED void load_inertial_forces_of_round(const articulation *tree, real h, uint round)
 {
+  articulation own = *tree;
+  const articulation *t = &own;
   for (uint k = 0; k < t->most_links; ++k) {
     tree_link l = tree_link_of(t, k);
     load_inertial_force(t, l, h);
@@ -65,8 +69,10 @@ SHARED void load_inertial_forces_of_round(const articulation *t, real h, uint ro
   else store_root(has_links(t), t, (uint)ROOT_LINEAR_VELOCITY, load_root(t, (uint)ROOT_START));
 }
 
-SHARED void settle_and_move_links(const articulation *t)
+CALLED void settle_and_move_links(const articulation *tree)
 {
+  articulation own = *tree;
+  const articulation *t = &own;
   for (uint k = 0; k < t->most_links; ++k) {
     tree_link l = tree_link_of(t, k);
     settle_link(t, l);
@@ -93,8 +99,10 @@ SHARED void second_half(const articulation *t, real h)
 
 /* The links where their joints are, after these have moved on if that is wanted. A walk over the links does all that
  * needs no more than the parent, because it takes its time to come to a link rather than to compute there. */
-SHARED void place_tree(const articulation *t, real h, uint advances)
+CALLED void place_tree(const articulation *tree, real h, uint advances)
 {
+  articulation own = *tree;
+  const articulation *t = &own;
   for (uint k = 0; k < t->most_links; ++k) {
     tree_link l = tree_link_of(t, k);
     if (advances != 0u) advance_joint(t, l, h);

@@ -71,15 +71,18 @@ SHARED link_joint load_link_joint(GLOBAL const Parameters *parameters, read_join
 
 /* --- responses ------------------------------------------------------------------------------------------------ */
 /* What of an impulse on a link arrives at one of its ancestors. */
-SHARED spatial_force force_at_ancestor(mask wanted, const articulation *t, uint_lanes k, uint_lanes ancestor,
-                                       spatial_force f)
+CALLED void take_to_ancestor_if(mask wanted, const articulation *tree, uint_lanes k, uint_lanes ancestor,
+                                spatial_force *impulse)
 {
+  articulation own = *tree;
+  const articulation *t = &own;
+  spatial_force f = *impulse;
   for (mask below = wanted & (k != ancestor); any_of(below); below = below & (k != ancestor)) {
     tree_link l = tree_link_of(t, k);
     f = choose_force(below, share_of_joint(t, l, load_placed_joint(t, l), f, zero3()).rest, f);
     k = choose(below, l.parent, k);
   }
-  return f;
+  *impulse = f;
 }
 
 /* A row, and what of it arrives at the common ancestor. */
@@ -92,8 +95,8 @@ SHARED joint_row row_of_joint(const link_joint *j, row_of_pair own)
   joint_row r = {own, own};
   mask within = j->ends.is_within;
   if (!any_of(within)) return r;
-  r.at_ancestor.a = force_at_ancestor(within, &j->ends.a.tree, j->ends.a.k, j->ancestor, own.a);
-  r.at_ancestor.b = force_at_ancestor(within, &j->ends.b.tree, j->ends.b.k, j->ancestor, own.b);
+  take_to_ancestor_if(within, &j->ends.a.tree, j->ends.a.k, j->ancestor, &r.at_ancestor.a);
+  take_to_ancestor_if(within, &j->ends.b.tree, j->ends.b.k, j->ancestor, &r.at_ancestor.b);
   return r;
 }
 
@@ -213,16 +216,16 @@ SHARED vec3 solve_link_rows(GLOBAL const Parameters *parameters, const link_join
 }
 
 /* locked: the rows that count, as JOINT_X and so on. open: how far the joint is open along them. */
-SHARED void solve_link_block_if(mask wanted, GLOBAL const Parameters *parameters, link_joint *j, row_block b,
-                                uint_lanes locked, vec3 open, vec3 *impulse, uint pass)
+CALLED void solve_link_block_if(mask wanted, GLOBAL const Parameters *parameters, link_joint *j, const row_block *b,
+                                uint_lanes locked, const vec3 *open, vec3 *impulse, uint pass)
 {
-  vec3 speed = make_vec3(speed_of_row(&j->ends, b.row[0].own), speed_of_row(&j->ends, b.row[1].own),
-                         speed_of_row(&j->ends, b.row[2].own));
+  vec3 speed = make_vec3(speed_of_row(&j->ends, b->row[0].own), speed_of_row(&j->ends, b->row[1].own),
+                         speed_of_row(&j->ends, b->row[2].own));
   vec3 total =
-      solve_link_rows(parameters, j, &b, locked, along_axes(locked, speed), along_axes(locked, open), *impulse, pass);
+      solve_link_rows(parameters, j, b, locked, along_axes(locked, speed), along_axes(locked, *open), *impulse, pass);
   vec3 change = subtract(total, *impulse);
-  row_of_pair sum = scaled_row(b.row[0].own, change.x);
-  sum = add_rows(add_rows(sum, scaled_row(b.row[1].own, change.y)), scaled_row(b.row[2].own, change.z));
+  row_of_pair sum = scaled_row(b->row[0].own, change.x);
+  sum = add_rows(add_rows(sum, scaled_row(b->row[1].own, change.y)), scaled_row(b->row[2].own, change.z));
   push_ends_if(wanted, j, sum, R(1.0));
   *impulse = choose3(wanted, total, *impulse);
 }
@@ -237,14 +240,20 @@ SHARED void solve_link_blocks(GLOBAL const Parameters *parameters, link_joint *j
 {
   uint_lanes turns = j->shape.modes >> (uint)JOINT_ANGULAR_SHIFT, moves = j->shape.modes & (uint)JOINT_XYZ;
   mask held = turns != 0u, whole = moves == (uint_lanes)(uint)JOINT_XYZ, some = (moves != 0u) & !whole;
-  if (HAS_FEATURE(parameters, JOINT_FRAMES) && any_of(held))
-    solve_link_block_if(held, parameters, j, block_about(j, j->frames.axes), turns,
-                        turn_between(j->frames.relative, turns), &p->angular, pass);
-  if (any_of(whole))
-    solve_link_block_if(whole, parameters, j, block_along(j, axes_of_world()), moves, j->shape.gap, &p->linear, pass);
-  if (any_of(some))
-    solve_link_block_if(some, parameters, j, block_along(j, j->frames.axes), moves,
-                        rotate_back(j->frames.axes, j->shape.gap), &p->linear, pass);
+  if (HAS_FEATURE(parameters, JOINT_FRAMES) && any_of(held)) {
+    row_block b = block_about(j, j->frames.axes);
+    vec3 open = turn_between(j->frames.relative, turns);
+    solve_link_block_if(held, parameters, j, &b, turns, &open, &p->angular, pass);
+  }
+  if (any_of(whole)) {
+    row_block b = block_along(j, axes_of_world());
+    solve_link_block_if(whole, parameters, j, &b, moves, &j->shape.gap, &p->linear, pass);
+  }
+  if (any_of(some)) {
+    row_block b = block_along(j, j->frames.axes);
+    vec3 open = rotate_back(j->frames.axes, j->shape.gap);
+    solve_link_block_if(some, parameters, j, &b, moves, &open, &p->linear, pass);
+  }
 }
 
 /* --- kernels -------------------------------------------------------------------------------------------------- */

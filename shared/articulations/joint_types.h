@@ -38,6 +38,16 @@ enum {
   STATE_ROWS
 };
 
+/* Words of a link: the freedoms of the joints between it and the root, its own among them (path.h). */
+enum {
+  PATH_BITS,            /* a bit each, in two words */
+  PATH_FIRST_ENTRY = 2, /* how many there are before those of its own joint */
+  PATH_FIRST_FREEDOM,   /* the number, within the tree, of the first of its own joint */
+  PATH_WORDS
+};
+#define TREE_FREEDOMS 64u  /* of a tree that has a table of paths, at most */
+#define PATH_ENTRY_ROWS 2u /* of that table, for each freedom of a path */
+
 /* Of a tree: rows of its root. */
 enum {
   ROOT_LINEAR_VELOCITY, /* of a free root */

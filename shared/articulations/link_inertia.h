@@ -62,8 +62,10 @@ SHARED symmetric6 followed_by_ball(const articulation *t, tree_link l, placed_jo
 }
 
 /* After this, WORK_INERTIA has the inverse inertias at the centres of the links, and nothing is pending. */
-SHARED void invert_link_inertias(const articulation *t)
+CALLED void invert_link_inertias(const articulation *tree)
 {
+  articulation own = *tree;
+  const articulation *t = &own;
   for (uint k = 0; k < t->most_links; ++k) {
     tree_link l = tree_link_of(t, k);
     placed_joint j = load_placed_joint(t, l);

@@ -60,8 +60,10 @@ SHARED void load_inertial_force(const articulation *t, tree_link l, real h)
   store_force(l.exists, t, l.k, (uint)WORK_FORCE, scaled_force(force_to_accelerate(t, l, a), -h));
   store_force(l.exists, t, l.k, (uint)WORK_PENDING, no_force());
 }
-SHARED void load_inertial_forces(const articulation *t, real h)
+CALLED void load_inertial_forces(const articulation *tree, real h)
 {
+  articulation own = *tree;
+  const articulation *t = &own;
   for (uint k = 0; k < t->most_links; ++k) load_inertial_force(t, tree_link_of(t, k), h);
 }
 

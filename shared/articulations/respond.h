@@ -109,8 +109,11 @@ SHARED spatial_motion link_change(const articulation *t, tree_link l, spatial_mo
 
 /* --- one link ------------------------------------------------------------------------------------------------- */
 /* The joints towards the root take their shares; a joint whose parent is the ground keeps the rest from it. */
-SHARED void push_link_if(mask wanted, const articulation *t, uint_lanes k, spatial_force at_center)
+CALLED void push_link_if(mask wanted, const articulation *tree, uint_lanes k, const spatial_force *impulse)
 {
+  articulation own = *tree;
+  const articulation *t = &own;
+  spatial_force at_center = *impulse;
   while (any_of(wanted)) {
     tree_link l = tree_link_of(t, k);
     joint_share s = share_of_joint(t, l, load_placed_joint(t, l), at_center, zero3());
@@ -123,7 +126,7 @@ SHARED void push_link_if(mask wanted, const articulation *t, uint_lanes k, spati
 /* An impulse on link k, at its centre. */
 SHARED void push_link(const articulation *t, uint_lanes k, spatial_force impulse)
 {
-  push_link_if(k < t->links, t, k, impulse);
+  push_link_if(k < t->links, t, k, &impulse);
 }
 
 /* Notes at each link between k and the root the next one on the way to k. */
@@ -138,9 +141,10 @@ SHARED void note_path(mask wanted, const articulation *t, uint_lanes k)
   }
 }
 
-/* The change of velocity of link k since the tree was settled, at its centre. */
-SHARED spatial_motion pending_change(const articulation *t, uint_lanes k)
+CALLED void find_pending_change(const articulation *tree, uint_lanes k, spatial_motion *change)
 {
+  articulation own = *tree;
+  const articulation *t = &own;
   mask wanted = k < t->links;
   note_path(wanted, t, k);
   uint_lanes at = choose(wanted, (uint_lanes)0u, k);
@@ -153,6 +157,13 @@ SHARED spatial_motion pending_change(const articulation *t, uint_lanes k)
     wanted = wanted & (following != at);
     at = choose(wanted, following, at);
   }
+  *change = m;
+}
+/* The change of velocity of link k since the tree was settled, at its centre. */
+SHARED spatial_motion pending_change(const articulation *t, uint_lanes k)
+{
+  spatial_motion m;
+  find_pending_change(t, k, &m);
   return m;
 }
 
@@ -180,8 +191,10 @@ SHARED void settle_link(const articulation *t, tree_link l)
   store_root(l.exists & l.is_free, t, (uint)ROOT_LINEAR_VELOCITY, extend(add(xyz(linear), m.linear), linear.w));
 }
 
-SHARED void settle_tree_if(mask wanted, const articulation *t)
+CALLED void settle_tree_if(mask wanted, const articulation *tree)
 {
+  articulation own = *tree;
+  const articulation *t = &own;
   for (uint k = 0; k < t->most_links; ++k) {
     tree_link l = tree_link_of(t, k);
     l.exists = l.exists & wanted;
@@ -192,8 +205,10 @@ SHARED void settle_tree(const articulation *t) { settle_tree_if(has_links(t), t)
 
 /* Takes the impulses on all links, WORK_FORCE, and those of all joints, WORK_PENDING (of a ball in axes of the world,
  * of a free root none), to what is pending. The settled tree has then the velocities after these impulses. */
-SHARED void push_all_links(const articulation *t)
+CALLED void push_all_links(const articulation *tree)
 {
+  articulation own = *tree;
+  const articulation *t = &own;
   for (uint n = t->most_links; n > 0u; --n) {
     tree_link l = tree_link_of(t, n - 1u);
     spatial_force at_center = load_force(t, l.k, (uint)WORK_FORCE);

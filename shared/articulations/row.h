@@ -58,7 +58,7 @@ SHARED void push_row(pushed_pair *p, row_of_pair r, real impulse)
 }
 
 /* Within one tree each side has what the other one pushed it with. */
-SHARED void push_each_other_if(mask wanted, pushed_pair *p)
+CALLED void push_each_other_if(mask wanted, pushed_pair *p)
 {
   mask moved = wanted & p->is_within & (is_push(p->a.pushed) | is_push(p->b.pushed));
   if (!any_of(moved)) return;

@@ -93,9 +93,11 @@ SHARED mask solve_rows_at_link(GLOBAL const Parameters *parameters, const articu
 }
 
 /* Whether rows have pushed. */
-SHARED mask sweep_rows_if(mask wanted, GLOBAL const Parameters *parameters, const articulation *t, uint pass,
+CALLED mask sweep_rows_if(mask wanted, GLOBAL const Parameters *parameters, const articulation *tree, uint pass,
                           uint which)
 {
+  articulation own = *tree;
+  const articulation *t = &own;
   mask pushed = wanted & !wanted;
   for (uint k = 0; k < t->most_links; ++k) {
     tree_link l = go_to_link_if(wanted, t, k);
@@ -106,8 +108,10 @@ SHARED mask sweep_rows_if(mask wanted, GLOBAL const Parameters *parameters, cons
   return pushed;
 }
 
-SHARED mask has_rows_found_late(GLOBAL const Parameters *parameters, const articulation *t)
+CALLED mask has_rows_found_late(GLOBAL const Parameters *parameters, const articulation *tree)
 {
+  articulation own = *tree;
+  const articulation *t = &own;
   mask late = has_links(t) & !has_links(t);
   for (uint k = 0; k < t->most_links; ++k) {
     tree_link l = tree_link_of(t, k);

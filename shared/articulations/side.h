@@ -111,17 +111,17 @@ SHARED void push_side_of_pair(pushed_side *s, spatial_force impulse)
 SHARED mask is_push(spatial_force f) { return is_nonzero(f.force) | is_nonzero(f.moment); }
 
 /* What a link was pushed with goes through its tree; then its velocity is that of the tree. */
-SHARED void push_into_tree_if(mask wanted, pushed_side *s)
+CALLED void push_into_tree_if(mask wanted, pushed_side *s)
 {
   mask pushes = wanted & s->is_link & is_push(s->pushed);
   if (any_of(pushes)) {
-    push_link_if(pushes, &s->tree, s->k, s->pushed);
+    push_link_if(pushes, &s->tree, s->k, &s->pushed);
     note_pushed_if(pushes, &s->tree, R(1.0));
   }
   s->pushed = choose_force(wanted & s->is_link, no_force(), s->pushed);
 }
 
-SHARED void store_side_of_pair(pushed_side *s, GLOBAL float4 *solver_velocity)
+CALLED void store_side_of_pair(pushed_side *s, GLOBAL float4 *solver_velocity)
 {
   push_into_tree_if(s->is_link, s);
   mask moves = (s->record.inverse_mass > R(0.0)) & !s->is_link;

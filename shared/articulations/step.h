@@ -109,6 +109,7 @@ SHARED void move_articulations_item(GLOBAL const Parameters *parameters, read_li
   vec3 gravity = gravity_at(parameters, bodies.gravity, body_of_link(links, &t, (uint_lanes)0u));
   return_to_parabola_if(tree_falls_freely(links, body_mass, body_falls, &t), &t, gravity, parameters->substep);
   note_pushed_if(has_links(&t), &t, R(0.0));
+  store_uint(states.colors, TREE_COLOR_WORDS * (uint_lanes)i, (uint_lanes)0u); /* its paths are another's: path.h */
   write_bodies(links, bodies, &t, moved);
 }
 

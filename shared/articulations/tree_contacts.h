@@ -7,17 +7,23 @@
  *      order_tree_contacts
  *      tree_contact     tree 0 | 4  7  9 ..            in the order of the colours, without gaps, so that trees which
  *                       tree 1 | 5  8  ..              a device solves side by side each have one to solve
- *      tree_colors      tree 0 | 0b1011  0  0  3       how many; 0 of a mixed tree
+ *      tree_colors      tree 0 | 0  0  0  3            is its table of paths made; how many; 0 of a mixed tree
  *
  * Contacts within one tree, and with what does not move, concern no other tree. An item a tree solves them one after
- * another in the order of their colours, which they would have in launches by colour, so the bits are the same: a tree
- * of 25 contacts needs one launch a pass instead of 25, and finds its own numbers in its cache. A tree is mixed if a
- * contact of it has another body that moves, or no colour of its own; then all of its contacts are solved by colour.
+ * another in the order of their colours: a tree of 25 contacts needs one launch a pass instead of 25. They read and
+ * push the tree by its table of paths (path.h), which holds as long as the tree stands still:
+ *
+ *     velocity = that of the links before the pass + J^T z,    inverse inertia = J^T J,    a push f: z += J f
+ *
+ * with J the rows of the seen link less those of the other one, and z what all contacts of the pass have pushed. So the
+ * response of two links of one tree to each other is exact. A tree is mixed if a contact of it has another body that
+ * moves, or no colour of its own, or if it has no table; then all of its contacts walk, by colour.
  */
 #ifndef TANDEM_SHARED_ARTICULATIONS_TREE_CONTACTS_H
 #define TANDEM_SHARED_ARTICULATIONS_TREE_CONTACTS_H
 
 #include "shared/articulations/contact.h"
+#include "shared/articulations/path.h"
 
 #ifndef TANDEM_LANES /* ITEM kernels take one item at a time */
 SHARED uint color_of_contact(GLOBAL const uint *counts, uint i)
@@ -30,6 +36,8 @@ SHARED uint color_of_contact(GLOBAL const uint *counts, uint i)
   }
   return low;
 }
+
+SHARED uint tree_has_paths(read_links links, uint tree) { return links.place[PLACE_WORDS * tree + 4u] > 0u ? 1u : 0u; }
 
 /* The tree of a body, or INDEX_NONE. */
 SHARED uint tree_of_body(read_links links, uint body)
@@ -57,7 +65,7 @@ SHARED void list_tree_contacts_item(read_contacts contacts, read_links links, GL
   mask within = tree_a == tree_b, on_rest = tree_a == INDEX_NONE   ? !can_move(solver_velocity, a)
                                             : tree_b == INDEX_NONE ? !can_move(solver_velocity, b)
                                                                    : 0;
-  if (color >= LINK_COLORS || !(within || on_rest)) {
+  if (color >= LINK_COLORS || !(within || on_rest) || !tree_has_paths(links, tree)) {
     note_mixed(states, tree_a);
     note_mixed(states, tree_b);
     return;
@@ -75,9 +83,88 @@ SHARED void order_tree_contacts_item(write_link_states states, uint i)
   for (uint word = 0u; word < 2u; ++word)
     for (uint color = 32u * word, left = colors[word]; left != 0u; ++color, left >>= 1u)
       if (left & 1u) contact[listed++] = contact[color];
+  colors[0] = 0u;
   colors[3] = colors[2] == 0u ? listed : 0u;
 }
 #endif
+
+/* --- by the table of paths ------------------------------------------------------------------------------------ */
+SHARED void make_paths_if(mask wanted, const articulation *t, GLOBAL uint *tree_colors)
+{
+  uint_lanes word = TREE_COLOR_WORDS * t->number;
+  wanted = wanted & (load_uint(tree_colors, word) == 0u);
+  if (!any_of(wanted)) return;
+  prepare_paths_if(wanted, t);
+  store_uint_if(wanted, tree_colors, word, (uint_lanes)1u);
+}
+
+/* Of what the freedoms of both links would move one of them by: that much more they answer than the tree lets them, so
+ * that pushes stay finite where it holds them to each other. */
+#define COMPLIANCE_WITHIN R(0.0625)
+
+/* No motion for freedoms that move neither. All are added alike, so that the bits of a tree depend on no other one. */
+SHARED void see_freedom(relative_body *body, spatial_motion row, real change)
+{
+  body->velocity.angular = add_scaled(body->velocity.angular, row.angular, change);
+  body->velocity.linear = add_scaled(body->velocity.linear, row.linear, change);
+  add_square_of_motion(&body->inverse, row, R(1.0));
+}
+SHARED void soften_if(mask both, relative_body *body, spatial_motion seen)
+{
+  if (!any_of(both)) return;
+  symmetric6 softer = body->inverse;
+  add_square_of_motion(&softer, seen, COMPLIANCE_WITHIN);
+  body->inverse = choose_symmetric6(both, softer, body->inverse);
+}
+
+/* The velocity before the pass. Adding 0 makes -0 to 0, to which what does not move it adds nothing. */
+SHARED void see_velocities_before(const articulation *t, link_contact *c)
+{
+  c->a.velocity = choose_motion(c->a.is_link, load_motion(t, c->a.k, (uint)WORK_VELOCITY), c->a.velocity);
+  c->b.velocity = choose_motion(c->b.is_link, load_motion(t, c->b.k, (uint)WORK_VELOCITY), c->b.velocity);
+  see_velocities(c);
+  c->body.velocity = add_motions(c->body.velocity, no_motion());
+}
+
+/* The contact after all that the pass has pushed with, and its row of each freedom. */
+SHARED void see_by_paths(const articulation *tree, link_contact *c, tree_freedoms *z)
+{
+  articulation own = *tree;
+  const articulation *t = &own;
+  c->walks_within = c->wanted & !c->wanted;
+  see_velocities_before(t, c);
+  mask is_b = c->body.is_b;
+  path_walk seen = walk_of_path_if(c->a.is_link | c->b.is_link, t, choose(is_b, c->b.k, c->a.k));
+  path_walk other = walk_of_path_if(is_b & c->a.is_link, t, c->a.k);
+  for (uint freedom = 0u; freedom < z->count; ++freedom) {
+    mask moves_seen = moves_by(&seen, freedom), moves_other = moves_by(&other, freedom);
+    spatial_motion of_seen = next_motion_if(moves_seen, t, &seen), of_other = next_motion_if(moves_other, t, &other);
+    z->row[freedom] = motion_seen(&c->body, of_seen, of_other);
+    see_freedom(&c->body, z->row[freedom], z->change[freedom]);
+    soften_if(moves_seen & moves_other, &c->body, of_seen);
+  }
+}
+
+SHARED void push_by_paths_if(mask wanted, tree_freedoms *z, spatial_force f)
+{
+  for (uint freedom = 0u; freedom < z->count; ++freedom) {
+    real change = z->change[freedom] + power_of(f, z->row[freedom]);
+    z->change[freedom] = choose(wanted, change, z->change[freedom]);
+  }
+}
+
+/* Those of a pass that is not the warm start move the tree. */
+SHARED void begin_moving_if(mask touches, const articulation *t, GLOBAL uint *tree_colors)
+{
+  settle_if_pending(touches, t);
+  make_paths_if(touches, t, tree_colors);
+}
+
+SHARED void end_moving_if(mask wanted, const articulation *t, const tree_freedoms *z, mask pushed)
+{
+  leave_pending_if(wanted, t, z);
+  note_pushed_if(pushed, t, R(1.0));
+}
 
 /* An item is a tree. */
 SHARED void solve_tree_contacts_item(GLOBAL const Parameters *parameters, read_contacts contacts, read_patches patches,
@@ -87,11 +174,27 @@ SHARED void solve_tree_contacts_item(GLOBAL const Parameters *parameters, read_c
                                      item_index i)
 {
   uint_lanes tree = i, listed = load_uint(states.colors, TREE_COLOR_WORDS * tree + 3u);
+  if (!any_of(listed > 0u)) return;
+  articulation t = articulation_at(links, states, tree);
+  listed = choose(has_links(&t), listed, (uint_lanes)0u);
+  mask touches = listed > 0u, pushed = touches & !touches;
+  uint moves = pass != (uint)PASS_WARM_STARTING ? 1u : 0u;
+  tree_freedoms z;
+  begin_freedoms(&t, &z);
+  if (moves) begin_moving_if(touches, &t, states.colors);
   for (uint n = 0u; any_of(n < listed); ++n) {
-    uint_lanes next = load_uint(states.contact, TREE_COLORS * tree + n);
-    solve_link_contact_at(parameters, contacts, patches, bodies, links, counts, states, contact_impulses,
-                          solver_velocity, warm_start_impulse, pass, choose(n < listed, next, (uint_lanes)INDEX_NONE));
+    mask wanted = n < listed;
+    uint_lanes at = choose(wanted, load_uint(states.contact, TREE_COLORS * tree + n), (uint_lanes)0u);
+    link_contact c = load_link_contact(wanted, parameters, contacts, patches, bodies, links, states, solver_velocity,
+                                       (uint)PASS_WARM_STARTING, at);
+    if (moves) see_by_paths(&t, &c, &z);
+    run_pass_of_link_contact(parameters, &c, patches, planes_of(counts), contact_impulses, warm_start_impulse, pass,
+                             at);
+    mask pushes = wanted & is_push(c.body.pushed);
+    if (any_of(pushes)) push_by_paths_if(pushes, &z, c.body.pushed);
+    pushed = pushed | pushes;
   }
+  if (moves) end_moving_if(touches, &t, &z, pushed);
 }
 
 #endif

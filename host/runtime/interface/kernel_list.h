@@ -84,6 +84,7 @@ enum class Capacity : uint8_t {
   COUPLINGS,
   ARTICULATIONS,
   LINKS,
+  LINK_PATHS,
   BODIES,
   BODIES_PLUS_ONE,
   SLEEPERS,

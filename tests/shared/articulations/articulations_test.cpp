@@ -261,6 +261,47 @@ TEST_CASE("articulations: the inverse inertia of a link is J M^-1 J^T, that of a
   });
 }
 
+namespace {
+
+/* The rows of a link, for all freedoms of its tree. */
+Dense path_rows(const Tree &tree, const TreeModel &model, uint k)
+{
+  Dense rows = Dense::Zero(model.size(), 6);
+  const std::vector<int> path = model.path_of(k);
+  for (uint n = 0; n < path.size(); ++n) rows.row(path[n]) = six(load_path_motion(&tree.t, k, n)).transpose();
+  return rows;
+}
+
+} // namespace
+
+TEST_CASE("articulations: rows of paths make the inverse inertia between any two links, and all that impulses do",
+          "[articulations]")
+{
+  for_random_trees(true, [](Random &random, const Case &c) {
+    auto [tree, dense, inverse] = PreparedTree(c);
+    REQUIRE(has_paths(&tree.t));
+    prepare_paths_if(1, &tree.t);
+    const uint links = tree.t.links, one = random.below(links), other = random.below(links);
+    const Dense rows = path_rows(tree, c.model, one), rows_of_other = path_rows(tree, c.model, other);
+    const auto jacobian = [&](uint k) { return dense.jacobian().middleRows<6>(6 * int(k)); };
+    const Dense expected = jacobian(one) * inverse * jacobian(other).transpose();
+    CHECK((rows.transpose() * rows_of_other - expected).norm() < 1e-10 * (1 + expected.norm()));
+
+    const Column impulse = random_column(random, 6), impulse_on_other = random_column(random, 6);
+    const Column changes = rows * impulse + rows_of_other * impulse_on_other;
+    tree_freedoms z;
+    begin_freedoms(&tree.t, &z);
+    REQUIRE(int(z.count) == c.model.size());
+    for (int n = 0; n < changes.size(); ++n) z.change[n] = changes[n];
+    leave_pending_if(1, &tree.t, &z);
+    settle_if_pending(1, &tree.t);
+    const Column moved =
+        inverse * (jacobian(one).transpose() * impulse + jacobian(other).transpose() * impulse_on_other);
+    CHECK((tree.get().v - c.state.v - moved).norm() < 1e-10 * (1 + moved.norm()));
+    CHECK(tree.pending().isZero(0));
+  });
+}
+
 TEST_CASE("articulations: springs and dampers are implicit in one equation of the tree", "[articulations]")
 {
   for_random_trees(true, [](Random &, Case c) {

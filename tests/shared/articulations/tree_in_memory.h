@@ -2,6 +2,7 @@
  * this within a namespace, and what the tests ask of it. */
 #include "shared/articulations/dense.h"
 #include "shared/articulations/inverse_dynamics.h"
+#include "shared/articulations/path.h"
 #include "shared/articulations/substep.h"
 #include "shared/platform.h"
 
@@ -13,6 +14,9 @@ public:
     const size_t links = model.links.size() * stride;
     code_.resize(links);
     next_.resize(links);
+    freedom_.resize(links * PATH_WORDS);
+    path_.resize(links * PATH_ENTRY_ROWS * entries());
+    change_.resize(size_t{stride} * TREE_FREEDOMS);
     link_.resize(links * LINK_ROWS);
     range_.resize(links);
     state_.resize(links * STATE_ROWS);
@@ -31,12 +35,25 @@ public:
             root_.data(),
             work_.data(),
             next_.data(),
+            freedom_.data(),
+            path_.data(),
+            change_.data(),
             0u,
             item,
             stride,
             uint(model_.links.size()),
+            uint(entries()),
+            uint(model_.size()),
             item,
             uint(model_.links.size())};
+  }
+
+  /* The freedoms of the longest path, of a tree that has few enough of them. */
+  size_t entries() const
+  {
+    size_t most = 1;
+    for (size_t k = 0; k < model_.links.size(); ++k) most = std::max(most, model_.path_of(k).size());
+    return model_.size() <= int(TREE_FREEDOMS) ? most : 0;
   }
 
   void set(const tree_tests::TreeState &s)
@@ -161,6 +178,7 @@ private:
       const tree_tests::LinkModel &l = model_.links[k];
       code_[tree_row(&a, 1, k, 0)] = (l.parent < 0 ? LINK_NO_PARENT : uint(l.parent)) | uint(l.joint)
                                                                                             << LINK_JOINT_SHIFT;
+      fill_freedoms(a, k);
       const auto at = [&](uint r) -> float4 & { return link_[tree_row(&a, LINK_ROWS, k, r)]; };
       const bool implicit = (l.stiffness > 0 || l.damping > 0) && !(l.largest_force < tree_tests::infinite);
       at(LINK_FRAME_A) = row(l.from_parent, l.armature);
@@ -174,7 +192,18 @@ private:
     }
   }
 
+  void fill_freedoms(const articulation &a, uint k)
+  {
+    const auto word = [&](uint n) -> uint & { return freedom_[tree_row(&a, PATH_WORDS, k, n)]; };
+    const std::vector<int> path = model_.path_of(k);
+    if (entries() > 0)
+      for (const int freedom : path) word(PATH_BITS + uint(freedom) / 32) |= 1u << uint(freedom) % 32;
+    word(PATH_FIRST_ENTRY) = uint(path.size()) - uint(model_.freedoms(k));
+    word(PATH_FIRST_FREEDOM) = uint(model_.first(k));
+  }
+
   const tree_tests::TreeModel model_;
-  std::vector<uint> code_, next_;
-  std::vector<float4> link_, range_, state_, root_, work_;
+  std::vector<uint> code_, next_, freedom_;
+  std::vector<float4> link_, range_, state_, root_, work_, path_;
+  std::vector<memory_real> change_;
 };

@@ -51,6 +51,14 @@ struct TreeModel {
     return sum;
   }
   int size() const { return first(links.size()); }
+  /* The freedoms of the joints from the root to link k, in order. */
+  std::vector<int> path_of(size_t k) const
+  {
+    std::vector<int> path;
+    if (links[k].parent >= 0) path = path_of(size_t(links[k].parent));
+    for (int n = 0; n < freedoms(k); ++n) path.push_back(first(k) + n);
+    return path;
+  }
 };
 
 struct TreeState {

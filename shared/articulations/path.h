@@ -1,0 +1,292 @@
+/* path.h - what the joints between the root and a link do to it, in one table, so that contacts need no walks.
+ *
+ *       0 free                  A row of a link is the motion that it gets while one freedom of its path to the root
+ *      / \                      moves by one unit, and no other is pushed.
+ *     1   3 hinge
+ *  ball    \                    rows of link 1   | 6 of the root | 3 of ball 1   |
+ *     |     4 hinge             rows of link 2   | 6 of the root | 3 of ball 1   | 1 of hinge 2 |
+ *     2                         rows of link 4   | 6 of the root | 1 of hinge 3  | 1 of hinge 4 |
+ *   hinge
+ *
+ * The units are those in which the mass matrix is the identity. So with J the rows of a link,
+ *
+ *     its change of velocity = J^T z,  an impulse f on it changes z by J f,  its inverse inertia in the tree is J^T J
+ *
+ * where z is a number for each freedom of the tree. M^-1 = L^-T D^-1 L^-1, and J is that of the link times L^-T D^-1/2
+ * (Featherstone, "Rigid Body Dynamics Algorithms", 2008, section 6.5). Rows follow from those of the parent once the
+ * tree is factored.
+ *
+ * A tree of more than TREE_FREEDOMS freedoms has no table; its contacts walk (respond.h).
+ */
+#ifndef TANDEM_SHARED_ARTICULATIONS_PATH_H
+#define TANDEM_SHARED_ARTICULATIONS_PATH_H
+
+#include "shared/articulations/respond.h"
+
+SHARED mask has_paths(const articulation *t) { return t->path_entries > 0u; }
+
+SHARED uint_lanes load_path_word(const articulation *t, uint_lanes k, uint word)
+{
+  return load_listed_uint(t->freedom, tree_row(t, (uint)PATH_WORDS, k, word));
+}
+
+SHARED uint_lanes path_row(const articulation *t, uint_lanes k, uint_lanes entry)
+{
+  uint_lanes rows = t->path_entries * PATH_ENTRY_ROWS;
+  return t->block * rows + t->item + (k * rows + PATH_ENTRY_ROWS * entry) * t->stride;
+}
+
+SHARED spatial_motion load_path_motion(const articulation *t, uint_lanes k, uint_lanes entry)
+{
+  uint_lanes row = path_row(t, k, entry);
+  spatial_motion m = {xyz(load_listed_row(t->path, row)), xyz(load_listed_row(t->path, row + t->stride))};
+  return m;
+}
+SHARED void store_path_motion_if(mask wanted, const articulation *t, uint_lanes k, uint_lanes entry, spatial_motion m)
+{
+  uint_lanes row = path_row(t, k, entry);
+  store_listed_row_if(wanted, t->path, row, extend(m.angular, R(0.0)));
+  store_listed_row_if(wanted, t->path, row + t->stride, extend(m.linear, R(0.0)));
+}
+
+/* The root of a positive number; 0 of others. */
+SHARED real root_if_positive(real x)
+{
+  mask positive = x > R(0.0);
+  return zero_if(!positive, square_root(choose(positive, x, (real)R(1.0))));
+}
+
+/* --- triangles ------------------------------------------------------------------------------------------------ */
+/* The columns of a lower triangle with s = triangle triangle^T (Cholesky). */
+typedef struct {
+  vec3 first, second, third;
+} lower_triangle;
+
+SHARED lower_triangle cholesky_of(symmetric3 s)
+{
+  lower_triangle l;
+  real x = root_if_positive(s.xx), by_x = inverse_if_positive(x);
+  l.first = make_vec3(x, s.xy * by_x, s.xz * by_x);
+  real y = root_if_positive(s.yy - l.first.y * l.first.y), by_y = inverse_if_positive(y);
+  l.second = make_vec3(R(0.0), y, (s.yz - l.first.y * l.first.z) * by_y);
+  real z = root_if_positive(s.zz - l.first.z * l.first.z - l.second.z * l.second.z);
+  l.third = make_vec3(R(0.0), R(0.0), z);
+  return l;
+}
+
+/* x with triangle^T x = v, and with triangle x = v. */
+SHARED vec3 solved_by_transpose(lower_triangle l, vec3 v)
+{
+  real z = v.z * inverse_if_positive(l.third.z);
+  real y = (v.y - l.second.z * z) * inverse_if_positive(l.second.y);
+  real x = (v.x - l.first.y * y - l.first.z * z) * inverse_if_positive(l.first.x);
+  return make_vec3(x, y, z);
+}
+SHARED vec3 solved_by_triangle(lower_triangle l, vec3 v)
+{
+  real x = v.x * inverse_if_positive(l.first.x);
+  real y = (v.y - l.first.y * x) * inverse_if_positive(l.second.y);
+  real z = (v.z - l.first.z * x - l.second.z * y) * inverse_if_positive(l.third.z);
+  return make_vec3(x, y, z);
+}
+SHARED vec3 triangle_times(lower_triangle l, vec3 v)
+{
+  return add_scaled(add_scaled(scale(l.first, v.x), l.second, v.y), l.third, v.z);
+}
+SHARED vec3 column_of(lower_triangle l, uint n) { return n == 0u ? l.first : n == 1u ? l.second : l.third; }
+
+/* The lower triangle of which an inverse inertia is the product with its transpose, linear motion first:
+ *
+ *     | linear             |
+ *     | turned^T  angular  |
+ */
+typedef struct {
+  lower_triangle linear, angular;
+  mat3 turned; /* rows: how each column of linear turns */
+} root_triangle;
+
+SHARED root_triangle root_triangle_of(symmetric6 inverse)
+{
+  root_triangle r;
+  r.linear = cholesky_of(inverse.first);
+  mat3 columns = transposed(inverse.coupling); /* by axis of rotation, what it does along each direction */
+  vec3 x = solved_by_triangle(r.linear, columns.x), y = solved_by_triangle(r.linear, columns.y),
+       z = solved_by_triangle(r.linear, columns.z);
+  mat3 rows = {x, y, z};
+  r.turned = transposed(rows);
+  r.angular = cholesky_of(add_symmetric_product(inverse.second, rows, rows, R(-1.0)));
+  return r;
+}
+
+SHARED root_triangle load_root_triangle(const articulation *t, tree_link root)
+{
+  return root_triangle_of(load_symmetric6(t, root.k));
+}
+
+SHARED vec3 row_of_matrix(mat3 m, uint n) { return n == 0u ? m.x : n == 1u ? m.y : m.z; }
+
+/* --- making the table ----------------------------------------------------------------------------------------- */
+/* The rows of the parent as the link follows it, with no push of its joint. */
+SHARED void follow_path_of_parent_if(mask wanted, const articulation *t, tree_link l, placed_joint j, uint_lanes rows)
+{
+  mask goes_on = wanted & (rows > 0u);
+  for (uint entry = 0u; any_of(goes_on); ++entry) {
+    spatial_motion at_b = motion_at(load_path_motion(t, l.parent, (uint_lanes)entry), j.from_parent);
+    vec3 change = joint_change(t, l, j, at_b, zero3());
+    vec3 world = choose3(has_one_freedom(l), scale(xyz(j.frame), change.x), change);
+    spatial_motion m = motion_at(add_motions(at_b, joint_motion(l, world, zero3())), j.to_center);
+    store_path_motion_if(goes_on, t, l.k, (uint_lanes)entry, m);
+    goes_on = goes_on & ((uint_lanes)(entry + 1u) < rows);
+  }
+}
+
+SHARED void begin_path_by_single_if(mask wanted, const articulation *t, tree_link l, placed_joint j, uint_lanes rows)
+{
+  if (!any_of(wanted)) return;
+  spatial_motion axis = motion_at(axis_motion(l, j), j.to_center);
+  real unit = root_if_positive(load_single_factor(t, l).inverse);
+  spatial_motion m = {scale(axis.angular, unit), scale(axis.linear, unit)};
+  store_path_motion_if(wanted, t, l.k, rows, m);
+}
+
+SHARED void begin_path_by_ball_if(mask wanted, const articulation *t, tree_link l, placed_joint j, uint_lanes rows)
+{
+  if (!any_of(wanted)) return;
+  lower_triangle unit = cholesky_of(load_ball_factor(t, l).inverse);
+  for (uint n = 0u; n < 3u; ++n) {
+    spatial_motion turn = {column_of(unit, n), zero3()};
+    store_path_motion_if(wanted, t, l.k, rows + n, motion_at(turn, j.to_center));
+  }
+}
+
+SHARED void begin_path_by_root_if(mask wanted, const articulation *t, tree_link l)
+{
+  if (!any_of(wanted)) return;
+  root_triangle unit = load_root_triangle(t, l);
+  for (uint n = 0u; n < 3u; ++n) {
+    spatial_motion along = {row_of_matrix(unit.turned, n), column_of(unit.linear, n)};
+    spatial_motion about = {column_of(unit.angular, n), zero3()};
+    store_path_motion_if(wanted, t, l.k, (uint_lanes)n, along);
+    store_path_motion_if(wanted, t, l.k, (uint_lanes)(3u + n), about);
+  }
+}
+
+CALLED void prepare_paths_if(mask wanted, const articulation *tree)
+{
+  articulation own = *tree;
+  const articulation *t = &own;
+  for (uint k = 0u; k < t->most_links; ++k) {
+    tree_link l = tree_link_of(t, (uint_lanes)k);
+    l.exists = l.exists & wanted;
+    placed_joint j = load_placed_joint(t, l);
+    uint_lanes rows = load_path_word(t, l.k, (uint)PATH_FIRST_ENTRY);
+    follow_path_of_parent_if(l.exists & !l.is_root, t, l, j, rows);
+    begin_path_by_single_if(l.exists & has_one_freedom(l), t, l, j, rows);
+    begin_path_by_ball_if(l.exists & l.is_ball, t, l, j, rows);
+    begin_path_by_root_if(l.exists & l.is_free, t, l);
+  }
+}
+
+/* --- z -------------------------------------------------------------------------------------------------------- */
+/* For each freedom of a tree what has pushed it, and its row of the contact that pushes now. */
+typedef struct {
+  uint count; /* of any lane */
+  real change[TREE_FREEDOMS];
+  spatial_motion row[TREE_FREEDOMS];
+} tree_freedoms;
+
+SHARED void begin_freedoms(const articulation *t, tree_freedoms *z)
+{
+  for (z->count = 0u; any_of((uint_lanes)z->count < t->freedoms); ++z->count) z->change[z->count] = R(0.0);
+}
+
+/* The path of a link, from freedom to freedom. */
+typedef struct {
+  uint_lanes k, entry;
+  uint_lanes freedoms[TREE_FREEDOMS / 32u]; /* a bit each */
+} path_walk;
+
+SHARED path_walk walk_of_path_if(mask wanted, const articulation *t, uint_lanes k)
+{
+  path_walk w;
+  w.k = k;
+  w.entry = (uint_lanes)0u;
+  for (uint word = 0u; word < TREE_FREEDOMS / 32u; ++word)
+    w.freedoms[word] = choose(wanted, load_path_word(t, k, (uint)PATH_BITS + word), (uint_lanes)0u);
+  return w;
+}
+SHARED mask moves_by(const path_walk *w, uint freedom)
+{
+  return ((w->freedoms[freedom / 32u] >> (uint_lanes)(freedom % 32u)) & (uint_lanes)1u) != 0u;
+}
+/* Of the next freedom of the path; no motion where it is not wanted. */
+SHARED spatial_motion next_motion_if(mask wanted, const articulation *t, path_walk *w)
+{
+  if (!any_of(wanted)) return no_motion();
+  spatial_motion m = load_path_motion(t, w->k, choose(wanted, w->entry, (uint_lanes)0u));
+  w->entry = choose(wanted, w->entry + 1u, w->entry);
+  return choose_motion(wanted, m, no_motion());
+}
+
+/* z in memory: those of trees that lie beside each other lie beside each other. */
+SHARED uint_lanes change_row(const articulation *t, uint_lanes freedom)
+{
+  return (t->number - t->item) * TREE_FREEDOMS + t->item + freedom * t->stride;
+}
+SHARED vec3 load_three_changes(const articulation *t, uint_lanes first)
+{
+  return make_vec3(load_real(t->change, change_row(t, first)), load_real(t->change, change_row(t, first + 1u)),
+                   load_real(t->change, change_row(t, first + 2u)));
+}
+
+SHARED spatial_force pending_of_freedoms(const articulation *t, tree_link l, uint_lanes first)
+{
+  spatial_force pending = no_force();
+  mask one = has_one_freedom(l);
+  if (any_of(one)) {
+    real change = load_real(t->change, change_row(t, first)) * root_if_positive(load_single_factor(t, l).inverse);
+    pending.moment = choose3(one, make_vec3(change, R(0.0), R(0.0)), pending.moment);
+  }
+  if (any_of(l.is_ball)) {
+    lower_triangle unit = cholesky_of(load_ball_factor(t, l).inverse);
+    pending.moment = choose3(l.is_ball, triangle_times(unit, load_three_changes(t, first)), pending.moment);
+  }
+  if (any_of(l.is_free)) { /* the impulse on the root that changes its velocity so */
+    root_triangle unit = load_root_triangle(t, l);
+    vec3 about = solved_by_transpose(unit.angular, load_three_changes(t, first + 3u));
+    vec3 along = subtract(load_three_changes(t, first), rotate(unit.turned, about));
+    pending.moment = choose3(l.is_free, about, pending.moment);
+    pending.force = choose3(l.is_free, solved_by_transpose(unit.linear, along), pending.force);
+  }
+  return pending;
+}
+
+/* What joints of others have left pending becomes velocities. */
+CALLED void settle_if_pending(mask wanted, const articulation *tree)
+{
+  articulation own = *tree;
+  const articulation *t = &own;
+  mask is_pending = wanted & !wanted;
+  for (uint k = 0u; k < t->most_links; ++k) {
+    spatial_force pending = load_pending(t, tree_link_of(t, (uint_lanes)k).k);
+    is_pending = is_pending | is_nonzero(pending.moment) | is_nonzero(pending.force);
+  }
+  is_pending = is_pending & wanted;
+  if (any_of(is_pending)) settle_tree_if(is_pending, t);
+}
+
+/* z becomes pending at the joints (respond.h), where nothing is. */
+CALLED void leave_pending_if(mask wanted, const articulation *tree, const tree_freedoms *z)
+{
+  articulation own = *tree;
+  const articulation *t = &own;
+  for (uint d = 0u; d < z->count; ++d)
+    store_listed_real_if(wanted, t->change, change_row(t, (uint_lanes)d), z->change[d]);
+  for (uint k = 0u; k < t->most_links; ++k) {
+    tree_link l = tree_link_of(t, (uint_lanes)k);
+    spatial_force pending = pending_of_freedoms(t, l, load_path_word(t, l.k, (uint)PATH_FIRST_FREEDOM));
+    store_force(l.exists & wanted, t, l.k, (uint)WORK_PENDING, pending);
+  }
+}
+
+#endif
