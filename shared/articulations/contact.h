@@ -28,31 +28,48 @@ typedef struct {
   delta_pose moved;
 } link_contact;
 
-/* pass: PASS_WARM_STARTING loads no velocities of links, as for those who have them otherwise. */
-SHARED link_contact load_link_contact(mask wanted, GLOBAL const Parameters *parameters, read_contacts contacts,
-                                      read_patches patches, read_turning_bodies bodies, read_links links,
-                                      write_link_states states, GLOBAL const float4 *solver_velocity, uint pass,
-                                      uint_lanes i)
+/* The bodies alone; one that is not wanted cannot move. */
+SHARED contact load_shape_of_contact(mask wanted, GLOBAL const Parameters *parameters, read_contacts contacts,
+                                     read_turning_bodies bodies, GLOBAL const float4 *solver_velocity, uint_lanes i)
+{
+  contact c = load_contact(parameters, contacts, solver_velocity, bodies.inertia, i);
+  c.velocity_a.inverse_mass = zero_if(!wanted, c.velocity_a.inverse_mass);
+  c.velocity_b.inverse_mass = zero_if(!wanted, c.velocity_b.inverse_mass);
+  return c;
+}
+
+/* Its two bodies as one are at rest as yet. */
+SHARED link_contact load_contact_of_sides(mask wanted, contact shape, pushed_side a, pushed_side b,
+                                          read_patches patches, read_turning_bodies bodies, uint_lanes i)
 {
   link_contact c;
   c.wanted = wanted;
-  c.shape = load_contact(parameters, contacts, solver_velocity, bodies.inertia, i);
-  c.shape.velocity_a.inverse_mass = zero_if(!wanted, c.shape.velocity_a.inverse_mass);
-  c.shape.velocity_b.inverse_mass = zero_if(!wanted, c.shape.velocity_b.inverse_mass);
-  mask links_a = wanted & is_link(links.of_body, c.shape.a), links_b = wanted & is_link(links.of_body, c.shape.b);
-  c.a = pushed_side_of(links_a, links, states, c.shape.a, c.shape.velocity_a, c.shape.inertia_a, c.shape.locks_a, pass);
-  c.b = pushed_side_of(links_b, links, states, c.shape.b, c.shape.velocity_b, c.shape.inertia_b, c.shape.locks_b, pass);
-  c.walks_within = c.a.is_link & c.b.is_link & (c.a.tree.number == c.b.tree.number);
-  c.moved = load_delta_pose(bodies.delta, c.shape);
-  c.shift = shift_of_contact(c.shape, c.moved.translation);
+  c.shape = shape;
+  c.a = a;
+  c.b = b;
+  c.walks_within = a.is_link & b.is_link & (a.tree.number == b.tree.number);
+  c.moved = load_delta_pose(bodies.delta, shape);
+  c.shift = shift_of_contact(shape, c.moved.translation);
   c.offset = load_float4(patches.offset, i);
   c.center_a = load_float4(patches.center, i);
   c.center_b = center_of_b(c.center_a, c.offset);
-  c.body = relative_body_of(c.b.is_link, add(xyz(c.offset), subtract(c.shift.a, c.shift.b)));
+  c.body = relative_body_of(b.is_link, add(xyz(c.offset), subtract(c.shift.a, c.shift.b)));
   return c;
 }
 
 /* --- by walks ------------------------------------------------------------------------------------------------- */
+SHARED link_contact load_walking_contact(mask wanted, GLOBAL const Parameters *parameters, read_contacts contacts,
+                                         read_patches patches, read_turning_bodies bodies, read_links links,
+                                         write_link_states states, GLOBAL const float4 *solver_velocity, uint pass,
+                                         uint_lanes i)
+{
+  contact c = load_shape_of_contact(wanted, parameters, contacts, bodies, solver_velocity, i);
+  mask links_a = wanted & is_link(links.of_body, c.a), links_b = wanted & is_link(links.of_body, c.b);
+  pushed_side a = pushed_side_of(links_a, links, states, c.a, c.velocity_a, c.inertia_a, c.locks_a, pass);
+  pushed_side b = pushed_side_of(links_b, links, states, c.b, c.velocity_b, c.inertia_b, c.locks_b, pass);
+  return load_contact_of_sides(wanted, c, a, b, patches, bodies, i);
+}
+
 SHARED void see_velocities(link_contact *c)
 {
   mask is_b = c->body.is_b;
@@ -351,7 +368,7 @@ SHARED void solve_link_contact_at(GLOBAL const Parameters *parameters, read_cont
   mask wanted = i != (uint_lanes)INDEX_NONE;
   i = choose(wanted, i, (uint_lanes)0u);
   link_contact c =
-      load_link_contact(wanted, parameters, contacts, patches, bodies, links, states, solver_velocity, pass, i);
+      load_walking_contact(wanted, parameters, contacts, patches, bodies, links, states, solver_velocity, pass, i);
   if (pass != (uint)PASS_WARM_STARTING) see_sides(&c);
   run_pass_of_link_contact(parameters, &c, patches, planes_of(counts), contact_impulses, warm_start_impulse, pass, i);
   if (pass != (uint)PASS_WARM_STARTING) store_sides(&c, solver_velocity);

@@ -126,36 +126,67 @@ SHARED root_triangle load_root_triangle(const articulation *t, tree_link root)
 SHARED vec3 row_of_matrix(mat3 m, uint n) { return n == 0u ? m.x : n == 1u ? m.y : m.z; }
 
 /* --- making the table ----------------------------------------------------------------------------------------- */
-/* The rows of the parent as the link follows it, with no push of its joint. */
-SHARED void follow_path_of_parent_if(mask wanted, const articulation *t, tree_link l, placed_joint j, uint_lanes rows)
+/* A joint that nothing pushes, and how it answers its parent. */
+typedef struct {
+  tree_link link;
+  placed_joint joint;
+  single_factor single;
+  ball_factor ball;
+} following_joint;
+
+SHARED following_joint load_following_joint(const articulation *t, tree_link l)
 {
-  mask goes_on = wanted & (rows > 0u);
-  for (uint entry = 0u; any_of(goes_on); ++entry) {
-    spatial_motion at_b = motion_at(load_path_motion(t, l.parent, (uint_lanes)entry), j.from_parent);
-    vec3 change = joint_change(t, l, j, at_b, zero3());
-    vec3 world = choose3(has_one_freedom(l), scale(xyz(j.frame), change.x), change);
-    spatial_motion m = motion_at(add_motions(at_b, joint_motion(l, world, zero3())), j.to_center);
-    store_path_motion_if(goes_on, t, l.k, (uint_lanes)entry, m);
-    goes_on = goes_on & ((uint_lanes)(entry + 1u) < rows);
+  following_joint f = {l, load_placed_joint(t, l), load_single_factor(t, l), load_ball_factor(t, l)};
+  return f;
+}
+
+/* The motion of the link while its parent moves so. */
+SHARED spatial_motion motion_of_follower(const following_joint *f, spatial_motion parent)
+{
+  spatial_motion at_b = motion_at(parent, f->joint.from_parent);
+  mask one = has_one_freedom(f->link), ball = f->link.is_ball;
+  vec3 world = zero3();
+  if (any_of(one)) world = choose3(one, scale(xyz(f->joint.frame), change_of_single(&f->single, at_b)), world);
+  if (any_of(ball)) world = choose3(ball, change_of_ball(&f->ball, f->joint, at_b), world);
+  return motion_at(add_motions(at_b, joint_motion(f->link, world, zero3())), f->joint.to_center);
+}
+
+/* Rows are gone through by some at once, so that a device waits for their memory once. */
+#define PATH_CHUNK 4u
+
+/* The rows of the parent as the link follows it. */
+SHARED void follow_path_of_parent_if(mask wanted, const articulation *t, const following_joint *f, uint_lanes rows)
+{
+  tree_link l = f->link;
+  for (uint first = 0u; any_of(wanted & ((uint_lanes)first < rows)); first += PATH_CHUNK) {
+    spatial_motion row[PATH_CHUNK];
+    for (uint n = 0u; n < PATH_CHUNK; ++n) {
+      uint_lanes entry = (uint_lanes)(first + n);
+      row[n] = load_path_motion(t, l.parent, choose(entry < rows, entry, (uint_lanes)0u));
+    }
+    for (uint n = 0u; n < PATH_CHUNK; ++n) {
+      uint_lanes entry = (uint_lanes)(first + n);
+      store_path_motion_if(wanted & (entry < rows), t, l.k, entry, motion_of_follower(f, row[n]));
+    }
   }
 }
 
-SHARED void begin_path_by_single_if(mask wanted, const articulation *t, tree_link l, placed_joint j, uint_lanes rows)
+SHARED void begin_path_by_single_if(mask wanted, const articulation *t, const following_joint *f, uint_lanes rows)
 {
   if (!any_of(wanted)) return;
-  spatial_motion axis = motion_at(axis_motion(l, j), j.to_center);
-  real unit = root_if_positive(load_single_factor(t, l).inverse);
+  spatial_motion axis = motion_at(axis_motion(f->link, f->joint), f->joint.to_center);
+  real unit = root_if_positive(f->single.inverse);
   spatial_motion m = {scale(axis.angular, unit), scale(axis.linear, unit)};
-  store_path_motion_if(wanted, t, l.k, rows, m);
+  store_path_motion_if(wanted, t, f->link.k, rows, m);
 }
 
-SHARED void begin_path_by_ball_if(mask wanted, const articulation *t, tree_link l, placed_joint j, uint_lanes rows)
+SHARED void begin_path_by_ball_if(mask wanted, const articulation *t, const following_joint *f, uint_lanes rows)
 {
   if (!any_of(wanted)) return;
-  lower_triangle unit = cholesky_of(load_ball_factor(t, l).inverse);
+  lower_triangle unit = cholesky_of(f->ball.inverse);
   for (uint n = 0u; n < 3u; ++n) {
     spatial_motion turn = {column_of(unit, n), zero3()};
-    store_path_motion_if(wanted, t, l.k, rows + n, motion_at(turn, j.to_center));
+    store_path_motion_if(wanted, t, f->link.k, rows + n, motion_at(turn, f->joint.to_center));
   }
 }
 
@@ -178,11 +209,11 @@ CALLED void prepare_paths_if(mask wanted, const articulation *tree)
   for (uint k = 0u; k < t->most_links; ++k) {
     tree_link l = tree_link_of(t, (uint_lanes)k);
     l.exists = l.exists & wanted;
-    placed_joint j = load_placed_joint(t, l);
+    following_joint f = load_following_joint(t, l);
     uint_lanes rows = load_path_word(t, l.k, (uint)PATH_FIRST_ENTRY);
-    follow_path_of_parent_if(l.exists & !l.is_root, t, l, j, rows);
-    begin_path_by_single_if(l.exists & has_one_freedom(l), t, l, j, rows);
-    begin_path_by_ball_if(l.exists & l.is_ball, t, l, j, rows);
+    follow_path_of_parent_if(l.exists & !l.is_root, t, &f, rows);
+    begin_path_by_single_if(l.exists & has_one_freedom(l), t, &f, rows);
+    begin_path_by_ball_if(l.exists & l.is_ball, t, &f, rows);
     begin_path_by_root_if(l.exists & l.is_free, t, l);
   }
 }
@@ -190,14 +221,15 @@ CALLED void prepare_paths_if(mask wanted, const articulation *tree)
 /* --- z -------------------------------------------------------------------------------------------------------- */
 /* For each freedom of a tree what has pushed it, and its row of the contact that pushes now. */
 typedef struct {
-  uint count; /* of any lane */
+  uint count; /* of any lane, in whole chunks */
   real change[TREE_FREEDOMS];
   spatial_motion row[TREE_FREEDOMS];
 } tree_freedoms;
 
 SHARED void begin_freedoms(const articulation *t, tree_freedoms *z)
 {
-  for (z->count = 0u; any_of((uint_lanes)z->count < t->freedoms); ++z->count) z->change[z->count] = R(0.0);
+  for (z->count = 0u; any_of((uint_lanes)z->count < t->freedoms); z->count += PATH_CHUNK)
+    for (uint n = 0u; n < PATH_CHUNK; ++n) z->change[z->count + n] = R(0.0);
 }
 
 /* The path of a link, from freedom to freedom. */

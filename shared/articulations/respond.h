@@ -59,20 +59,30 @@ SHARED joint_share share_of_joint(const articulation *t, tree_link l, placed_joi
   return s;
 }
 
-/* The velocity that the joint gets while its parent changes as at_b says, at frame b; numbers as pending has them. */
+/* The velocity that a joint gets while its parent changes as at_b says, at frame b, and nothing pushes the joint; numbers
+ * as pending has them. */
+SHARED real change_of_single(const single_factor *f, spatial_motion at_b)
+{
+  return -(power_of(f->u, at_b) * f->inverse);
+}
+SHARED vec3 change_of_ball(const ball_factor *f, placed_joint j, spatial_motion at_b)
+{
+  vec3 held = scale(symmetric_times(f->inverse, at_b.angular), j.implicit_inertia);
+  return negate(subtract(at_b.angular, subtract(held, matrix_times(f->g, at_b.linear))));
+}
+
+/* The same of a joint that has been pushed. */
 SHARED vec3 joint_change(const articulation *t, tree_link l, placed_joint j, spatial_motion at_b, vec3 pending)
 {
   vec3 change = zero3();
   mask one = has_one_freedom(l);
   if (any_of(one)) {
     single_factor f = load_single_factor(t, l);
-    change = choose3(one, make_vec3(pending.x - power_of(f.u, at_b) * f.inverse, R(0.0), R(0.0)), change);
+    change = choose3(one, make_vec3(pending.x + change_of_single(&f, at_b), R(0.0), R(0.0)), change);
   }
   if (any_of(l.is_ball)) {
     ball_factor f = load_ball_factor(t, l);
-    vec3 held = scale(symmetric_times(f.inverse, at_b.angular), j.implicit_inertia);
-    vec3 turned_back = subtract(at_b.angular, subtract(held, matrix_times(f.g, at_b.linear)));
-    change = choose3(l.is_ball, subtract(pending, turned_back), change);
+    change = choose3(l.is_ball, add(pending, change_of_ball(&f, j, at_b)), change);
   }
   return change;
 }

@@ -117,31 +117,56 @@ SHARED void soften_if(mask both, relative_body *body, spatial_motion seen)
   body->inverse = choose_symmetric6(both, softer, body->inverse);
 }
 
-/* The velocity before the pass. Adding 0 makes -0 to 0, to which what does not move it adds nothing. */
-SHARED void see_velocities_before(const articulation *t, link_contact *c)
+/* A link of the tree, or a body that none of its contacts moves. Its velocity is that before the pass. */
+SHARED pushed_side side_of_tree_contact(mask wanted, const articulation *t, read_links links, uint_lanes body,
+                                        spatial_velocity record)
 {
-  c->a.velocity = choose_motion(c->a.is_link, load_motion(t, c->a.k, (uint)WORK_VELOCITY), c->a.velocity);
-  c->b.velocity = choose_motion(c->b.is_link, load_motion(t, c->b.k, (uint)WORK_VELOCITY), c->b.velocity);
-  see_velocities(c);
-  c->body.velocity = add_motions(c->body.velocity, no_motion());
+  pushed_side s;
+  s.body = body;
+  s.record = record;
+  s.tree = *t;
+  s.is_link = wanted & is_link(links.of_body, body);
+  s.answers = s.is_link;
+  s.k = choose(s.is_link, load_uint(links.of_body, LINK_WORDS * body + 2u), (uint_lanes)0u);
+  s.velocity.linear = record.linear;
+  s.velocity.angular = record.angular;
+  s.velocity = choose_motion(s.is_link, load_motion(t, s.k, (uint)WORK_VELOCITY), s.velocity);
+  s.inverse = zero_symmetric6();
+  s.pushed = no_force();
+  return s;
+}
+
+SHARED link_contact load_tree_contact(mask wanted, GLOBAL const Parameters *parameters, const articulation *t,
+                                      read_contacts contacts, read_patches patches, read_turning_bodies bodies,
+                                      read_links links, GLOBAL const float4 *solver_velocity, uint_lanes i)
+{
+  contact c = load_shape_of_contact(wanted, parameters, contacts, bodies, solver_velocity, i);
+  pushed_side a = side_of_tree_contact(wanted, t, links, c.a, c.velocity_a),
+              b = side_of_tree_contact(wanted, t, links, c.b, c.velocity_b);
+  link_contact loaded = load_contact_of_sides(wanted, c, a, b, patches, bodies, i);
+  loaded.walks_within = wanted & !wanted;
+  return loaded;
 }
 
 /* The contact after all that the pass has pushed with, and its row of each freedom. */
-SHARED void see_by_paths(const articulation *tree, link_contact *c, tree_freedoms *z)
+SHARED void see_by_paths(const articulation *t, link_contact *c, tree_freedoms *z)
 {
-  articulation own = *tree;
-  const articulation *t = &own;
-  c->walks_within = c->wanted & !c->wanted;
-  see_velocities_before(t, c);
+  see_velocities(c);
+  c->body.velocity = add_motions(c->body.velocity, no_motion()); /* -0 becomes 0, to which adding 0 does nothing */
   mask is_b = c->body.is_b;
   path_walk seen = walk_of_path_if(c->a.is_link | c->b.is_link, t, choose(is_b, c->b.k, c->a.k));
   path_walk other = walk_of_path_if(is_b & c->a.is_link, t, c->a.k);
-  for (uint freedom = 0u; freedom < z->count; ++freedom) {
-    mask moves_seen = moves_by(&seen, freedom), moves_other = moves_by(&other, freedom);
-    spatial_motion of_seen = next_motion_if(moves_seen, t, &seen), of_other = next_motion_if(moves_other, t, &other);
-    z->row[freedom] = motion_seen(&c->body, of_seen, of_other);
-    see_freedom(&c->body, z->row[freedom], z->change[freedom]);
-    soften_if(moves_seen & moves_other, &c->body, of_seen);
+  for (uint first = 0u; first < z->count; first += PATH_CHUNK) {
+    spatial_motion of_seen[PATH_CHUNK], of_other[PATH_CHUNK];
+    for (uint n = 0u; n < PATH_CHUNK; ++n) {
+      of_seen[n] = next_motion_if(moves_by(&seen, first + n), t, &seen);
+      of_other[n] = next_motion_if(moves_by(&other, first + n), t, &other);
+    }
+    for (uint n = 0u; n < PATH_CHUNK; ++n) {
+      z->row[first + n] = motion_seen(&c->body, of_seen[n], of_other[n]);
+      see_freedom(&c->body, z->row[first + n], z->change[first + n]);
+      soften_if(moves_by(&seen, first + n) & moves_by(&other, first + n), &c->body, of_seen[n]);
+    }
   }
 }
 
@@ -182,12 +207,12 @@ SHARED void solve_tree_contacts_item(GLOBAL const Parameters *parameters, read_c
   tree_freedoms z;
   begin_freedoms(&t, &z);
   if (moves) begin_moving_if(touches, &t, states.colors);
+  articulation own = t; /* known to no function that is called */
   for (uint n = 0u; any_of(n < listed); ++n) {
     mask wanted = n < listed;
     uint_lanes at = choose(wanted, load_uint(states.contact, TREE_COLORS * tree + n), (uint_lanes)0u);
-    link_contact c = load_link_contact(wanted, parameters, contacts, patches, bodies, links, states, solver_velocity,
-                                       (uint)PASS_WARM_STARTING, at);
-    if (moves) see_by_paths(&t, &c, &z);
+    link_contact c = load_tree_contact(wanted, parameters, &own, contacts, patches, bodies, links, solver_velocity, at);
+    if (moves) see_by_paths(&own, &c, &z);
     run_pass_of_link_contact(parameters, &c, patches, planes_of(counts), contact_impulses, warm_start_impulse, pass,
                              at);
     mask pushes = wanted & is_push(c.body.pushed);

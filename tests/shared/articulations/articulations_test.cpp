@@ -291,7 +291,7 @@ TEST_CASE("articulations: rows of paths make the inverse inertia between any two
     const Column changes = rows * impulse + rows_of_other * impulse_on_other;
     tree_freedoms z;
     begin_freedoms(&tree.t, &z);
-    REQUIRE(int(z.count) == c.model.size());
+    REQUIRE(int(z.count) >= c.model.size());
     for (int n = 0; n < changes.size(); ++n) z.change[n] = changes[n];
     leave_pending_if(1, &tree.t, &z);
     settle_if_pending(1, &tree.t);
