@@ -56,7 +56,7 @@ size_t items_of(Capacity capacity, const Sizes &sizes)
   case Capacity::COUPLINGS: return sizes.couplings;
   case Capacity::ARTICULATIONS: return sizes.articulations;
   case Capacity::LINKS: return sizes.links;
-  case Capacity::LINK_PATHS: return size_t{sizes.links} * std::max(sizes.path_entries, 1u);
+  case Capacity::PATH_ENTRIES: return std::max<size_t>(sizes.path_entries, 1);
   case Capacity::HULL_CHUNKS: return sizes.hulls.chunk_float4s;
   case Capacity::HULL_LINKS: return sizes.hulls.links;
   case Capacity::BODIES: return sizes.bodies;

@@ -22,7 +22,7 @@ struct Sizes {
   uint32_t couplings = 0;
   uint32_t articulations = 0;
   uint32_t links = 0;        /* of all articulations */
-  uint32_t path_entries = 0; /* of each of these */
+  size_t path_entries = 0;   /* of all of these that have tables of paths */
   uint32_t joined_pairs = 0; /* entries of their table */
   uint32_t pairs = 0;        /* capacity */
   uint32_t cells = 0;        /* capacity */

@@ -200,15 +200,20 @@ void note_base(const Joint &joint, uint32_t root, JointedLinks &links)
   if (base != no_body) links.bases[base] = true;
 }
 
-/* A tree that nothing can move has no contacts to solve, and one freedom for all that. */
-void note_freedoms(const std::vector<OrderedLink> &tree, JointedLinks &links)
+/* A tree that nothing can move has one freedom for all that. */
+uint32_t freedoms_of_table(const std::vector<OrderedLink> &tree)
 {
   const ArticulationLink &last = tree.back().link;
   const uint32_t freedoms = last.first_velocity + last.velocities;
-  links.freedoms.push_back(freedoms <= TREE_FREEDOMS ? std::max(freedoms, 1u) : 0);
-  if (links.freedoms.back() == 0) return;
-  for (const OrderedLink &l : tree)
-    links.path_entries = std::max({links.path_entries, l.path_entries + l.link.velocities, 1u});
+  return freedoms <= TREE_FREEDOMS ? std::max(freedoms, 1u) : 0;
+}
+
+/* The freedoms of the longest path. */
+uint32_t longest_path(const std::vector<OrderedLink> &tree)
+{
+  uint32_t most = 1;
+  for (const OrderedLink &l : tree) most = std::max(most, l.path_entries + l.link.velocities);
+  return most;
 }
 
 } // namespace
@@ -222,10 +227,12 @@ JointedLinks links_of(const Scene &scene)
   links.body_of_joint.assign(scene.joints.size(), no_body);
   links.of_body.assign(scene.bodies.size(), no_link);
   links.bases.resize(scene.bodies.size());
+  std::vector<uint32_t> entries; /* of the longest path of each tree; 0 of those without a table */
   for (const Articulation &articulation : scene.articulations) {
     links.trees.emplace_back();
     const std::vector<OrderedLink> tree = ordered_links_of(scene, articulation, scene.name);
-    note_freedoms(tree, links);
+    links.freedoms.push_back(freedoms_of_table(tree));
+    entries.push_back(links.freedoms.back() > 0 ? longest_path(tree) : 0);
     for (const OrderedLink &l : tree) {
       if (l.link.joint != ArticulationLink::none) {
         if (l.link.parent == ArticulationLink::none) note_base(scene.joints[l.link.joint], l.link.body, links);
@@ -239,6 +246,7 @@ JointedLinks links_of(const Scene &scene)
     }
   }
   links.places = places_of(links.trees);
+  links.paths = path_places(links.places, entries);
   return links;
 }
 
@@ -335,9 +343,9 @@ void stage_bodies_of_links(StagedUploads &uploads, const JointedLinks &links, st
     const bool is_out = std::any_of(tree.begin(), tree.end(), [&](uint32_t slot) {
       return status_of(status, slot) == BodyStatus::quarantined || index_of_body[slot] >= awake;
     });
-    const uint32_t freedoms = links.freedoms[number];
-    place.insert(place.end(), {at.block, at.item, at.stride, is_out ? 0 : at.links,
-                               freedoms > 0 ? links.path_entries : 0, freedoms});
+    const PathPlace &paths = links.paths.of_tree[number];
+    place.insert(place.end(), {at.block, at.item, at.stride, is_out ? 0 : at.links, paths.block, paths.entries,
+                               links.freedoms[number]});
     for (uint32_t k = 0; k < tree.size(); ++k) {
       const uint32_t index = index_of_body[tree[k]];
       body[at.row(1, k, 0)] = index;

@@ -30,7 +30,7 @@ struct JointedLinks {
   std::vector<bool> bases;                  /* by body: whether a tree stands on it */
   std::vector<TreePlace> places;            /* by articulation */
   std::vector<uint32_t> freedoms;           /* by articulation that has a table of paths; of others 0 */
-  uint32_t path_entries = 0;                /* the most of any link of these: shared/articulations/path.h */
+  PathPlaces paths;                         /* shared/articulations/path.h */
 
   bool has_base(uint32_t body) const { return body < bases.size() && bases[body]; }
   bool has_body(uint32_t body) const { return body < of_body.size() && of_body[body] != no_link; }

@@ -119,6 +119,7 @@ struct Posed {
          0u,
          0u,
          0u,
+         0u,
          uint(links)};
     for (uint k = 0; k < links; ++k) {
       const Quadruple &q = s.coordinates[k];

@@ -26,4 +26,17 @@ std::vector<TreePlace> tree_places(std::span<const uint32_t> lengths)
   return places;
 }
 
+PathPlaces path_places(std::span<const TreePlace> places, std::span<const uint32_t> entries)
+{
+  PathPlaces paths;
+  for (size_t first = 0; first < places.size(); first += places[first].stride) {
+    const TreePlace &place = places[first];
+    const auto beside = entries.subspan(first, place.stride);
+    const uint32_t most = *std::max_element(beside.begin(), beside.end());
+    paths.of_tree.insert(paths.of_tree.end(), place.stride, {static_cast<uint32_t>(paths.entries), most});
+    paths.entries += size_t{most} * place.stride * place.links;
+  }
+  return paths;
+}
+
 } // namespace tandem

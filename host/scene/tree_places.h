@@ -24,7 +24,20 @@ struct TreePlace {
   size_t row(size_t rows, size_t link, size_t row) const { return block * rows + item + (link * rows + row) * stride; }
 };
 
+/* The words that follow: where the tables of paths of the trees beside each other begin, and how many entries each of
+ * their links has. */
+struct PathPlace {
+  uint32_t block, entries;
+};
+struct PathPlaces {
+  std::vector<PathPlace> of_tree;
+  size_t entries = 0; /* of all */
+};
+
 /* lengths: the links of each tree. */
 std::vector<TreePlace> tree_places(std::span<const uint32_t> lengths);
+
+/* entries: of the longest path of each tree; 0 of one without a table. */
+PathPlaces path_places(std::span<const TreePlace> places, std::span<const uint32_t> entries);
 
 } // namespace tandem

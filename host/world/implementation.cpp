@@ -137,7 +137,7 @@ Sizes World::Implementation::sizes() const
           .couplings = static_cast<uint32_t>(scene.couplings.size()),
           .articulations = static_cast<uint32_t>(scene.articulations.size()),
           .links = links.count,
-          .path_entries = links.path_entries,
+          .path_entries = links.paths.entries,
           .joined_pairs = joint_graph.joined_pairs,
           .pairs = plan.capacity_pairs,
           .cells = plan.capacity_cells,

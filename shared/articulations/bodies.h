@@ -19,12 +19,12 @@
 #define TREE_COLORS 64u
 #define TREE_COLOR_WORDS 4u
 /* Words of articulation_place: block, item, stride (tree.h), the number of links; of a tree that has a table of paths
- * the numbers of entries of a path and of freedoms. */
-#define PLACE_WORDS 6u
+ * where that of its block begins, in entries, the most entries of a link, and the freedoms of the tree; of others 0. */
+enum { PLACE_PATHS = 4, PLACE_FREEDOMS = 6, PLACE_WORDS };
 
 SHARED articulation articulation_at(read_links links, write_link_states states, uint_lanes number)
 {
-  uint_lanes place = PLACE_WORDS * number;
+  uint_lanes place = (uint)PLACE_WORDS * number;
   articulation t;
   t.code = links.code;
   t.link = links.row;
@@ -40,8 +40,9 @@ SHARED articulation articulation_at(read_links links, write_link_states states, 
   t.item = load_uint(links.place, place + 1u);
   t.stride = load_uint(links.place, place + 2u);
   t.links = load_uint(links.place, place + 3u);
-  t.path_entries = load_uint(links.place, place + 4u);
-  t.freedoms = load_uint(links.place, place + 5u);
+  t.path_block = load_uint(links.place, place + (uint)PLACE_PATHS);
+  t.path_entries = load_uint(links.place, place + (uint)PLACE_PATHS + 1u);
+  t.freedoms = load_uint(links.place, place + (uint)PLACE_FREEDOMS);
   t.number = number;
   t.most_links = 0u;
   while (any_of((uint_lanes)t.most_links < t.links)) ++t.most_links;

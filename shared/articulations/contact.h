@@ -85,7 +85,8 @@ SHARED void see_sides(link_contact *c)
              other = choose_symmetric6(is_b, c->a.inverse, c->b.inverse);
   see_velocities(c);
   symmetric6 sum = add_symmetric6(seen, symmetric6_at(other, c->body.to_seen));
-  c->body.inverse = choose_symmetric6(c->walks_within, add_symmetric6(sum, sum), sum);
+  c->body.inverse = sum;
+  c->body.response = choose_symmetric6(c->walks_within, add_symmetric6(sum, sum), sum);
 }
 
 SHARED void push_sides(link_contact *c)

@@ -23,8 +23,6 @@
 
 #include "shared/articulations/respond.h"
 
-SHARED mask has_paths(const articulation *t) { return t->path_entries > 0u; }
-
 SHARED uint_lanes load_path_word(const articulation *t, uint_lanes k, uint word)
 {
   return load_listed_uint(t->freedom, tree_row(t, (uint)PATH_WORDS, k, word));
@@ -32,14 +30,15 @@ SHARED uint_lanes load_path_word(const articulation *t, uint_lanes k, uint word)
 
 SHARED uint_lanes path_row(const articulation *t, uint_lanes k, uint_lanes entry)
 {
-  uint_lanes rows = t->path_entries * PATH_ENTRY_ROWS;
-  return t->block * rows + t->item + (k * rows + PATH_ENTRY_ROWS * entry) * t->stride;
+  return t->path_block * PATH_ENTRY_ROWS + t->item + (k * t->path_entries + entry) * PATH_ENTRY_ROWS * t->stride;
 }
 
-SHARED spatial_motion load_path_motion(const articulation *t, uint_lanes k, uint_lanes entry)
+/* What is not wanted is read where there is something. */
+SHARED spatial_motion load_path_motion_if(mask wanted, const articulation *t, uint_lanes k, uint_lanes entry)
 {
-  uint_lanes row = path_row(t, k, entry);
-  spatial_motion m = {xyz(load_listed_row(t->path, row)), xyz(load_listed_row(t->path, row + t->stride))};
+  uint_lanes row = choose(wanted, path_row(t, k, entry), (uint_lanes)0u),
+             next = row + choose(wanted, t->stride, (uint_lanes)1u);
+  spatial_motion m = {xyz(load_listed_row(t->path, row)), xyz(load_listed_row(t->path, next))};
   return m;
 }
 SHARED void store_path_motion_if(mask wanted, const articulation *t, uint_lanes k, uint_lanes entry, spatial_motion m)
@@ -162,7 +161,7 @@ SHARED void follow_path_of_parent_if(mask wanted, const articulation *t, const f
     spatial_motion row[PATH_CHUNK];
     for (uint n = 0u; n < PATH_CHUNK; ++n) {
       uint_lanes entry = (uint_lanes)(first + n);
-      row[n] = load_path_motion(t, l.parent, choose(entry < rows, entry, (uint_lanes)0u));
+      row[n] = load_path_motion_if(wanted & (entry < rows), t, l.parent, entry);
     }
     for (uint n = 0u; n < PATH_CHUNK; ++n) {
       uint_lanes entry = (uint_lanes)(first + n);
@@ -255,7 +254,7 @@ SHARED mask moves_by(const path_walk *w, uint freedom)
 SHARED spatial_motion next_motion_if(mask wanted, const articulation *t, path_walk *w)
 {
   if (!any_of(wanted)) return no_motion();
-  spatial_motion m = load_path_motion(t, w->k, choose(wanted, w->entry, (uint_lanes)0u));
+  spatial_motion m = load_path_motion_if(wanted, t, w->k, w->entry);
   w->entry = choose(wanted, w->entry + 1u, w->entry);
   return choose_motion(wanted, m, no_motion());
 }
@@ -265,30 +264,34 @@ SHARED uint_lanes change_row(const articulation *t, uint_lanes freedom)
 {
   return (t->number - t->item) * TREE_FREEDOMS + t->item + freedom * t->stride;
 }
-SHARED vec3 load_three_changes(const articulation *t, uint_lanes first)
+SHARED real load_change_if(mask wanted, const articulation *t, uint_lanes freedom)
 {
-  return make_vec3(load_real(t->change, change_row(t, first)), load_real(t->change, change_row(t, first + 1u)),
-                   load_real(t->change, change_row(t, first + 2u)));
+  return load_real(t->change, choose(wanted, change_row(t, freedom), (uint_lanes)0u));
+}
+SHARED vec3 load_three_changes_if(mask wanted, const articulation *t, uint_lanes first)
+{
+  return make_vec3(load_change_if(wanted, t, first), load_change_if(wanted, t, first + 1u),
+                   load_change_if(wanted, t, first + 2u));
 }
 
 SHARED spatial_force pending_of_freedoms(const articulation *t, tree_link l, uint_lanes first)
 {
   spatial_force pending = no_force();
-  mask one = has_one_freedom(l);
+  mask one = l.exists & has_one_freedom(l), ball = l.exists & l.is_ball, free = l.exists & l.is_free;
   if (any_of(one)) {
-    real change = load_real(t->change, change_row(t, first)) * root_if_positive(load_single_factor(t, l).inverse);
+    real change = load_change_if(one, t, first) * root_if_positive(load_single_factor(t, l).inverse);
     pending.moment = choose3(one, make_vec3(change, R(0.0), R(0.0)), pending.moment);
   }
-  if (any_of(l.is_ball)) {
+  if (any_of(ball)) {
     lower_triangle unit = cholesky_of(load_ball_factor(t, l).inverse);
-    pending.moment = choose3(l.is_ball, triangle_times(unit, load_three_changes(t, first)), pending.moment);
+    pending.moment = choose3(ball, triangle_times(unit, load_three_changes_if(ball, t, first)), pending.moment);
   }
-  if (any_of(l.is_free)) { /* the impulse on the root that changes its velocity so */
+  if (any_of(free)) { /* the impulse on the root that changes its velocity so */
     root_triangle unit = load_root_triangle(t, l);
-    vec3 about = solved_by_transpose(unit.angular, load_three_changes(t, first + 3u));
-    vec3 along = subtract(load_three_changes(t, first), rotate(unit.turned, about));
-    pending.moment = choose3(l.is_free, about, pending.moment);
-    pending.force = choose3(l.is_free, solved_by_transpose(unit.linear, along), pending.force);
+    vec3 about = solved_by_transpose(unit.angular, load_three_changes_if(free, t, first + 3u));
+    vec3 along = subtract(load_three_changes_if(free, t, first), rotate(unit.turned, about));
+    pending.moment = choose3(free, about, pending.moment);
+    pending.force = choose3(free, solved_by_transpose(unit.linear, along), pending.force);
   }
   return pending;
 }
@@ -313,11 +316,12 @@ CALLED void leave_pending_if(mask wanted, const articulation *tree, const tree_f
   articulation own = *tree;
   const articulation *t = &own;
   for (uint d = 0u; d < z->count; ++d)
-    store_listed_real_if(wanted, t->change, change_row(t, (uint_lanes)d), z->change[d]);
+    store_listed_real_if(wanted & ((uint_lanes)d < t->freedoms), t->change, change_row(t, (uint_lanes)d), z->change[d]);
   for (uint k = 0u; k < t->most_links; ++k) {
     tree_link l = tree_link_of(t, (uint_lanes)k);
+    l.exists = l.exists & wanted;
     spatial_force pending = pending_of_freedoms(t, l, load_path_word(t, l.k, (uint)PATH_FIRST_FREEDOM));
-    store_force(l.exists & wanted, t, l.k, (uint)WORK_PENDING, pending);
+    store_force(l.exists, t, l.k, (uint)WORK_PENDING, pending);
   }
 }
 

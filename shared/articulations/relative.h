@@ -16,7 +16,8 @@ typedef struct {
   mask is_b;    /* b is seen; else a is */
   vec3 to_seen; /* from the centre of the other body */
   spatial_motion velocity;
-  symmetric6 inverse;   /* as inverse_times wants it */
+  symmetric6 inverse;   /* how pushes change the velocity, as inverse_times wants it */
+  symmetric6 response;  /* the same or more, for the effective masses of rows */
   spatial_force pushed; /* the seen body, since the velocity was loaded */
 } relative_body;
 
@@ -27,7 +28,7 @@ SHARED relative_body relative_body_of(mask is_b, vec3 between)
   r.is_b = is_b;
   r.to_seen = choose3(is_b, between, negate(between));
   r.velocity = no_motion();
-  r.inverse = zero_symmetric6();
+  r.inverse = r.response = zero_symmetric6();
   r.pushed = no_force();
   return r;
 }
@@ -56,10 +57,10 @@ SHARED spatial_force twist_seen(const relative_body *r, vec3 axis)
   return twist_about(choose3(r->is_b, axis, negate(axis)));
 }
 
-/* How fast it moves along `second` by an impulse along `first`. */
+/* How fast it moves along `second` by an impulse along `first`, or less fast. */
 SHARED real response_seen(const relative_body *r, spatial_force first, spatial_force second)
 {
-  return power_of(second, inverse_times(&r->inverse, first));
+  return power_of(second, inverse_times(&r->response, first));
 }
 
 SHARED void push_seen(relative_body *r, spatial_force impulse)

@@ -59,8 +59,8 @@ SHARED joint_share share_of_joint(const articulation *t, tree_link l, placed_joi
   return s;
 }
 
-/* The velocity that a joint gets while its parent changes as at_b says, at frame b, and nothing pushes the joint; numbers
- * as pending has them. */
+/* The velocity that a joint gets while its parent changes as at_b says, at frame b, and nothing pushes the joint;
+ * numbers as pending has them. */
 SHARED real change_of_single(const single_factor *f, spatial_motion at_b)
 {
   return -(power_of(f->u, at_b) * f->inverse);

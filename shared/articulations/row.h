@@ -1,4 +1,4 @@
-/* row.h - rows of contacts and joints that push links: an impulse along a row pushes b, and its opposite pushes a. */
+/* row.h - rows of joints that push links: an impulse along a row pushes b, and its opposite pushes a. */
 #ifndef TANDEM_SHARED_ARTICULATIONS_ROW_H
 #define TANDEM_SHARED_ARTICULATIONS_ROW_H
 

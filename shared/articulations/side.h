@@ -1,4 +1,5 @@
-/* side.h - one body of a contact or of a joint that pushes a link: the link of a tree, or any other body.
+/* side.h - one body of a contact or of a joint that pushes a link: the link of a tree, or any other body. Sides of
+ * contacts that are solved by the table of paths (tree_contacts.h) have no inverse inertia and are not pushed.
  *
  * Both answer to an impulse with a 6x6 inverse inertia (spatial.h). That of a link is its inverse inertia within the
  * tree (link_inertia.h), so the effective mass of a row is exact, whatever the tree is and wherever it is held. What

@@ -31,12 +31,12 @@ typedef struct {
   GLOBAL float4 *work;        /* WORK_ROWS a link */
   GLOBAL uint *next;          /* a word a link, of which the substep alone knows */
   GLOBAL const uint *freedom; /* PATH_WORDS a link */
-  GLOBAL float4 *path;        /* path_entries a link: path.h */
+  GLOBAL float4 *path;        /* path_entries a link, PATH_ENTRY_ROWS each: path.h */
   GLOBAL memory_real *change; /* TREE_FREEDOMS a tree: path.h */
   uint_lanes block, item, stride, links;
-  uint_lanes path_entries, freedoms; /* of a tree that has a table of paths; else 0 */
-  uint_lanes number;                 /* of the tree */
-  uint most_links;                   /* of any lane */
+  uint_lanes path_block, path_entries, freedoms; /* of a tree that has a table of paths; else 0 */
+  uint_lanes number;                             /* of the tree */
+  uint most_links;                               /* of any lane */
 } articulation;
 
 /* One of which a body is in quarantine has none. */

@@ -37,7 +37,10 @@ SHARED uint color_of_contact(GLOBAL const uint *counts, uint i)
   return low;
 }
 
-SHARED uint tree_has_paths(read_links links, uint tree) { return links.place[PLACE_WORDS * tree + 4u] > 0u ? 1u : 0u; }
+SHARED uint tree_has_paths(read_links links, uint tree)
+{
+  return links.place[(uint)PLACE_WORDS * tree + (uint)PLACE_FREEDOMS] > 0u ? 1u : 0u;
+}
 
 /* The tree of a body, or INDEX_NONE. */
 SHARED uint tree_of_body(read_links links, uint body)
@@ -83,7 +86,7 @@ SHARED void order_tree_contacts_item(write_link_states states, uint i)
   for (uint word = 0u; word < 2u; ++word)
     for (uint color = 32u * word, left = colors[word]; left != 0u; ++color, left >>= 1u)
       if (left & 1u) contact[listed++] = contact[color];
-  colors[0] = 0u;
+  colors[0] = colors[1] = 0u;
   colors[3] = colors[2] == 0u ? listed : 0u;
 }
 #endif
@@ -98,9 +101,9 @@ SHARED void make_paths_if(mask wanted, const articulation *t, GLOBAL uint *tree_
   store_uint_if(wanted, tree_colors, word, (uint_lanes)1u);
 }
 
-/* Of what the freedoms of both links would move one of them by: that much more they answer than the tree lets them, so
- * that pushes stay finite where it holds them to each other. */
-#define COMPLIANCE_WITHIN R(0.0625)
+/* Of what the freedoms that move both links would move each of them by: that much less they are taken to weigh together
+ * than the tree makes them, so that pushes stay small where it holds them to each other. */
+#define COMPLIANCE_WITHIN R(0.5)
 
 /* No motion for freedoms that move neither. All are added alike, so that the bits of a tree depend on no other one. */
 SHARED void see_freedom(relative_body *body, spatial_motion row, real change)
@@ -109,12 +112,14 @@ SHARED void see_freedom(relative_body *body, spatial_motion row, real change)
   body->velocity.linear = add_scaled(body->velocity.linear, row.linear, change);
   add_square_of_motion(&body->inverse, row, R(1.0));
 }
-SHARED void soften_if(mask both, relative_body *body, spatial_motion seen)
+SHARED void soften_if(mask both, const relative_body *body, symmetric6 *softness, spatial_motion seen,
+                      spatial_motion other)
 {
   if (!any_of(both)) return;
-  symmetric6 softer = body->inverse;
+  symmetric6 softer = *softness;
   add_square_of_motion(&softer, seen, COMPLIANCE_WITHIN);
-  body->inverse = choose_symmetric6(both, softer, body->inverse);
+  add_square_of_motion(&softer, motion_at(other, body->to_seen), COMPLIANCE_WITHIN);
+  *softness = choose_symmetric6(both, softer, *softness);
 }
 
 /* A link of the tree, or a body that none of its contacts moves. Its velocity is that before the pass. */
@@ -156,6 +161,7 @@ SHARED void see_by_paths(const articulation *t, link_contact *c, tree_freedoms *
   mask is_b = c->body.is_b;
   path_walk seen = walk_of_path_if(c->a.is_link | c->b.is_link, t, choose(is_b, c->b.k, c->a.k));
   path_walk other = walk_of_path_if(is_b & c->a.is_link, t, c->a.k);
+  symmetric6 softness = zero_symmetric6();
   for (uint first = 0u; first < z->count; first += PATH_CHUNK) {
     spatial_motion of_seen[PATH_CHUNK], of_other[PATH_CHUNK];
     for (uint n = 0u; n < PATH_CHUNK; ++n) {
@@ -165,9 +171,11 @@ SHARED void see_by_paths(const articulation *t, link_contact *c, tree_freedoms *
     for (uint n = 0u; n < PATH_CHUNK; ++n) {
       z->row[first + n] = motion_seen(&c->body, of_seen[n], of_other[n]);
       see_freedom(&c->body, z->row[first + n], z->change[first + n]);
-      soften_if(moves_by(&seen, first + n) & moves_by(&other, first + n), &c->body, of_seen[n]);
+      mask both = moves_by(&seen, first + n) & moves_by(&other, first + n);
+      soften_if(both, &c->body, &softness, of_seen[n], of_other[n]);
     }
   }
+  c->body.response = add_symmetric6(c->body.inverse, softness);
 }
 
 SHARED void push_by_paths_if(mask wanted, tree_freedoms *z, spatial_force f)

@@ -84,7 +84,7 @@ enum class Capacity : uint8_t {
   COUPLINGS,
   ARTICULATIONS,
   LINKS,
-  LINK_PATHS,
+  PATH_ENTRIES,
   BODIES,
   BODIES_PLUS_ONE,
   SLEEPERS,

@@ -268,7 +268,7 @@ Dense path_rows(const Tree &tree, const TreeModel &model, uint k)
 {
   Dense rows = Dense::Zero(model.size(), 6);
   const std::vector<int> path = model.path_of(k);
-  for (uint n = 0; n < path.size(); ++n) rows.row(path[n]) = six(load_path_motion(&tree.t, k, n)).transpose();
+  for (uint n = 0; n < path.size(); ++n) rows.row(path[n]) = six(load_path_motion_if(1, &tree.t, k, n)).transpose();
   return rows;
 }
 
@@ -279,7 +279,7 @@ TEST_CASE("articulations: rows of paths make the inverse inertia between any two
 {
   for_random_trees(true, [](Random &random, const Case &c) {
     auto [tree, dense, inverse] = PreparedTree(c);
-    REQUIRE(has_paths(&tree.t));
+    REQUIRE(tree.t.path_entries > 0);
     prepare_paths_if(1, &tree.t);
     const uint links = tree.t.links, one = random.below(links), other = random.below(links);
     const Dense rows = path_rows(tree, c.model, one), rows_of_other = path_rows(tree, c.model, other);
@@ -291,7 +291,6 @@ TEST_CASE("articulations: rows of paths make the inverse inertia between any two
     const Column changes = rows * impulse + rows_of_other * impulse_on_other;
     tree_freedoms z;
     begin_freedoms(&tree.t, &z);
-    REQUIRE(int(z.count) >= c.model.size());
     for (int n = 0; n < changes.size(); ++n) z.change[n] = changes[n];
     leave_pending_if(1, &tree.t, &z);
     settle_if_pending(1, &tree.t);

@@ -42,6 +42,7 @@ public:
             item,
             stride,
             uint(model_.links.size()),
+            0u,
             uint(entries()),
             uint(model_.size()),
             item,
