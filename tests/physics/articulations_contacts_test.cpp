@@ -53,7 +53,8 @@ std::vector<double> speeds_after_meeting(const Scene &scene, uint32_t substeps)
   std::vector<double> speeds;
   for (const auto &body : world.precise_bodies()) {
     speeds.push_back(body.linear_velocity[0]);
-    CHECK(vector_of(body.angular_velocity).norm() < 1e-4);
+    const bool is_link = speeds.size() <= scene.joints.size() + 1;
+    if (is_link) CHECK(vector_of(body.angular_velocity).norm() < 1e-4);
   }
   return speeds;
 }
