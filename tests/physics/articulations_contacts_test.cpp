@@ -10,7 +10,7 @@ using namespace tandem::physics_tests;
 
 namespace {
 
-const Placement serial{"serial", {}, false};
+const Placement one_thread{"serial", {}, false};
 constexpr double base_mass = 10;
 
 struct Cart {
@@ -48,7 +48,7 @@ std::vector<double> speeds_after_meeting(const Scene &scene, uint32_t substeps)
 {
   Settings settings;
   settings.substeps = substeps;
-  World world(scene, settings, serial);
+  World world(scene, settings, one_thread);
   run(world, 60);
   std::vector<double> speeds;
   for (const auto &body : world.precise_bodies()) {
@@ -141,7 +141,7 @@ TEST_CASE("links that overlap deeply come apart no faster than bodies", "[articu
   connect(scene, JointType::hinge, 0, 1, {-0.01, -0.02, 0.13}, Vector::UnitX());
   connect(scene, JointType::hinge, 1, 2, {0.01, 0, 0.165}, Vector::UnitX());
   articulate(scene, 0);
-  World world(scene, {}, serial);
+  World world(scene, {}, one_thread);
   double most = 0;
   for (int k = 0; k < 240; ++k) {
     world.step();
@@ -158,7 +158,7 @@ TEST_CASE("cubes that overlap and are fixed to one base neither move it nor push
   const Scene scene = carts_on_base({{-0.05, 1, 0, JointType::fixed}, {0.05, 1, 0, JointType::fixed}}, 0);
   Settings settings;
   settings.events = true;
-  World world(scene, settings, serial);
+  World world(scene, settings, one_thread);
   std::vector<double> impulses;
   for (int k = 0; k < 480; ++k) {
     world.step();
@@ -181,7 +181,7 @@ TEST_CASE("chains of 64 freedoms and of 65 slide as far as theory says", "[artic
         connect(scene, JointType::hinge, uint32_t(k), uint32_t(k + 1), {0.2 * k - 0.1, 0.05, 0}, Vector::UnitZ());
     }
     articulate(scene, 1);
-    World world(scene, {}, serial);
+    World world(scene, {}, one_thread);
     run(world, 90);
     const double way = 2 * 2 / (2 * 0.6 * gravity);
     const auto bodies = world.precise_bodies();
