@@ -125,6 +125,14 @@ SHARED vec3 gravity_at(GLOBAL const Parameters *parameters, GLOBAL const float4 
   return gravity_of(parameters);
 }
 
+/* The number of a body within its world; its row of gravity has it in a batch. */
+SHARED uint_lanes number_in_world(GLOBAL const Parameters *parameters, GLOBAL const float4 *body_gravity,
+                                  uint_lanes body)
+{
+  if (HAS_FEATURE(parameters, WORLDS)) return to_uint(load_float4(body_gravity, body).w);
+  return body;
+}
+
 /* The first body of a body's world. Of a batch those of one world are neighbours; else all bodies are of one. */
 SHARED uint first_of_world(GLOBAL const Parameters *parameters, GLOBAL const uint *body_world, uint body)
 {

@@ -11,7 +11,8 @@
 namespace tandem {
 namespace {
 
-float4 row_of_gravity(const Vec3 &v) { return {v[0], v[1], v[2], 0}; }
+/* With the number of the body within its world: shared/records.h. */
+float4 row_of_gravity(const Vec3 &v, uint32_t number) { return {v[0], v[1], v[2], static_cast<float>(number)}; }
 
 /* Above so many worlds their gravity is uploaded at once: each transfer takes as long as some thousands of rows. */
 constexpr size_t few_worlds = 16;
@@ -44,8 +45,8 @@ void Worlds::Implementation::upload_gravity(uint32_t first, uint32_t count)
 {
   std::vector<float4> rows;
   rows.reserve(size_t{count} * bodies);
-  for (uint32_t number = first; number < first + count; ++number)
-    rows.insert(rows.end(), bodies, row_of_gravity(gravity[number]));
+  for (uint32_t world = first; world < first + count; ++world)
+    for (uint32_t number = 0; number < bodies; ++number) rows.push_back(row_of_gravity(gravity[world], number));
   if (!rows.empty())
     engine().memory.upload(Buffer::body_gravity, rows.data(), rows.size() * sizeof(float4),
                            size_t{first} * bodies * sizeof(float4));

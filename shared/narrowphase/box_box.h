@@ -203,12 +203,15 @@ SHARED manifold with_edge_contact(manifold m, mask wanted, box_pair pair, real r
 
 /* The offset along which boxes are to part whose centres coincide to within a thousandth of their size. It is longer
  * than the lead of an axis. */
-SHARED vec3 parting_offset(vec3 offset, real slop, real least, uint_lanes a, uint_lanes b)
+SHARED vec3 parting_offset(GLOBAL const Parameters *parameters, GLOBAL const float4 *body_gravity, vec3 offset,
+                           real least, uint_lanes a, uint_lanes b)
 {
   real little = least * R(0.001);
   mask in_one_place = length_squared(offset) < little * little;
   if (!any_of(in_one_place)) return offset;
-  return choose3(in_one_place, scale(parting_direction(a, b), lead_of(slop, least) * R(3.0)), offset);
+  return choose3(in_one_place,
+                 scale(parting_direction(parameters, body_gravity, a, b), lead_of(parameters->slop, least) * R(3.0)),
+                 offset);
 }
 
 /* toward: the offset of the boxes, or the one along which they are to part. rounded, nearly_along: as in
@@ -316,7 +319,7 @@ SHARED void collide_box_box_item(read_listed_pairs pairs, GLOBAL const uint *fla
   mask mine = item.mine;
 
   moving_boxes pair = load_boxes(shapes, bodies, parameters, a, b);
-  vec3 toward = parting_offset(pair.boxes.offset, parameters->slop, pair.least, a, b);
+  vec3 toward = parting_offset(parameters, bodies.gravity, pair.boxes.offset, pair.least, a, b);
   box_pair boxes = along_best_axis(pair.boxes, toward, parameters->slop, pair.rounded, NEARLY_ALONG);
   manifold m = boxes_contact(parameters, mine, boxes, pair.moves);
   store_manifold_if(mine, m, planes_of(counts), manifolds, item.pair);

@@ -214,7 +214,7 @@ SHARED moving_capsules load_moving_capsules(GLOBAL const uint *flags, GLOBAL con
   moving_capsules p;
   p.pair.a = capsule_of_body(shapes, poses, bodies.orientation, make_vec3(zero, zero, zero), a_is_sphere, a);
   p.pair.b = capsule_of_body(shapes, poses, bodies.orientation, offset_between(bodies.position, a, b), b_is_sphere, b);
-  p.aside = parting_direction(a, b);
+  p.aside = parting_direction(parameters, bodies.gravity, a, b);
   p.moves = load_pair_motion(bodies, parameters, a, b, choose(a_is_sphere, zero, load_float4(shapes, a).w),
                              choose(b_is_sphere, zero, load_float4(shapes, b).w));
   p.least = minimum(p.pair.a.radius, p.pair.b.radius);

@@ -60,17 +60,20 @@ SHARED manifold choose_manifold(mask m, manifold a, manifold b)
 
 /* Bodies whose centres coincide have no direction between them. Each body therefore has a hashed place of its own in a
  * horizontal plane, and pairs part along the line between their places. If all pairs parted along one line, a thousand
- * bodies would form a thousand layers whose speeds add up. The plane is horizontal so that no body is lifted. */
-SHARED vec3 place_of_its_own(uint_lanes body)
+ * bodies would form a thousand layers whose speeds add up. The plane is horizontal so that no body is lifted. number:
+ * of the body within its world. */
+SHARED vec3 place_of_its_own(uint_lanes number)
 {
-  uint_lanes hash = (body + 1u) * 0x9e3779b1u;
+  uint_lanes hash = (number + 1u) * 0x9e3779b1u;
   hash = (hash ^ (hash >> 15u)) * 0x85ebca77u;
   hash = hash ^ (hash >> 13u);
   return make_vec3(to_real(hash & 0xffffu), R(0.0), to_real(hash >> 16u));
 }
-SHARED vec3 parting_direction(uint_lanes a, uint_lanes b)
+SHARED vec3 parting_direction(GLOBAL const Parameters *parameters, GLOBAL const float4 *body_gravity, uint_lanes a,
+                              uint_lanes b)
 {
-  vec3 between = subtract(place_of_its_own(b), place_of_its_own(a));
+  vec3 between = subtract(place_of_its_own(number_in_world(parameters, body_gravity, b)),
+                          place_of_its_own(number_in_world(parameters, body_gravity, a)));
   real length = length_of(between);
   mask differ = length > R(0.0);
   return choose3(differ, scale(between, R(1.0) / choose(differ, length, (real)R(1.0))),

@@ -69,7 +69,7 @@ SHARED void collide_sphere_sphere_item(read_listed_pairs pairs, GLOBAL const uin
   mask mine = item.mine;
 
   real radius_a = load_float4(shapes, a).x, radius_b = load_float4(shapes, b).x, least = minimum(radius_a, radius_b);
-  vec3 between = offset_between(bodies.position, a, b), aside = parting_direction(a, b);
+  vec3 between = offset_between(bodies.position, a, b), aside = parting_direction(parameters, bodies.gravity, a, b);
   pair_motion moves = load_pair_motion(bodies, parameters, a, b, R(0.0), R(0.0));
   manifold m = spheres_contact(between, radius_a, radius_b, aside);
   m = kept_within(m, reach_of_pair(parameters, moves, m.normal));

@@ -52,6 +52,25 @@ TEST_CASE("parity on CPU: worlds of a batch have the bits of worlds alone")
   require_worlds_alone("tbb:threads=3,lanes=1", 3, 5);
 }
 
+/* Bodies in one place part along lines between places that follow from their numbers. */
+TEST_CASE("parity on CPU: bodies of a batch that are in one place part as they do alone")
+{
+  Scene scene;
+  scene.materials.emplace_back();
+  scene.shapes = {sphere_shape(0.2f), capsule_shape(0.1f, 0.15f), box_shape(0.2f, 0.15f, 0.1f)};
+  for (uint32_t body = 0; body < 9; ++body) {
+    scene.bodies.emplace_back();
+    scene.bodies.back().shape = body % 3;
+    scene.bodies.back().position = {body / 3 * 5.0, 1, 0};
+  }
+  for (const std::string backend : {"serial", "tbb:threads=2,lanes=8"})
+    for (const auto &[one, other] : {std::pair(0u, 0u), {1u, 1u}, {2u, 2u}, {0u, 1u}, {0u, 2u}, {1u, 2u}}) {
+      CAPTURE(backend, one, other);
+      for (uint32_t body = 0; body < 9; ++body) scene.bodies[body].shape = body % 2 ? one : other;
+      tests::BatchBesideWorlds(std::vector<Scene>(5, scene), backend).step(12);
+    }
+}
+
 /* So many pairs, of which most touch, are set up in their own order, and those of one world in that of constraints. */
 TEST_CASE("parity on CPU: set-up by pair has the bits of set-up by constraint")
 {
