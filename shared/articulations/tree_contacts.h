@@ -15,9 +15,10 @@
  *
  *     velocity = that of the links before the pass + J^T z,    inverse inertia = J^T J,    a push f: z += J f
  *
- * with J the rows of the seen link less those of the other one, and z what all contacts of the pass have pushed. So the
- * response of two links of one tree to each other is exact. A tree is mixed if a contact of it has another body that
- * moves, or no colour of its own, or if it has no table; then all of its contacts walk, by colour.
+ * with J the rows of the seen link less those of the other one, and z what all contacts of the pass have pushed. So
+ * what two links of one tree do to each other through it is exact; rows between them have smaller masses than that
+ * allows (COMPLIANCE_WITHIN). A tree is mixed if a contact of it has another body that moves, or no colour of its own,
+ * or if it has no table; then all of its contacts walk, by colour.
  */
 #ifndef TANDEM_SHARED_ARTICULATIONS_TREE_CONTACTS_H
 #define TANDEM_SHARED_ARTICULATIONS_TREE_CONTACTS_H
@@ -101,8 +102,9 @@ SHARED void make_paths_if(mask wanted, const articulation *t, GLOBAL uint *tree_
   store_uint_if(wanted, tree_colors, word, (uint_lanes)1u);
 }
 
-/* Of what the freedoms that move both links would move each of them by: that much less they are taken to weigh together
- * than the tree makes them, so that pushes stay small where it holds them to each other. */
+/* Of what the freedoms that move both links would move each of them by: so much more they seem to answer than the tree
+ * lets them, which keeps pushes small where it holds them to each other. With a sixteenth, some links that began deep in
+ * each other came apart with twenty to a thousand times the energy. */
 #define COMPLIANCE_WITHIN R(0.5)
 
 /* No motion for freedoms that move neither. All are added alike, so that the bits of a tree depend on no other one. */
