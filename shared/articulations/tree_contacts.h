@@ -103,8 +103,8 @@ SHARED void make_paths_if(mask wanted, const articulation *t, GLOBAL uint *tree_
 }
 
 /* Of what the freedoms that move both links would move each of them by: so much more they seem to answer than the tree
- * lets them, which keeps pushes small where it holds them to each other. With a sixteenth, some links that began deep in
- * each other came apart with twenty to a thousand times the energy. */
+ * lets them, which keeps pushes small where it holds them to each other. With a sixteenth, some links that began deep
+ * in each other came apart with twenty to a thousand times the energy. */
 #define COMPLIANCE_WITHIN R(0.5)
 
 /* No motion for freedoms that move neither. All are added alike, so that the bits of a tree depend on no other one. */
