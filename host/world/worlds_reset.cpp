@@ -12,7 +12,10 @@ namespace tandem {
 namespace {
 
 /* With the number of the body within its world: shared/records.h. */
-float4 row_of_gravity(const Vec3 &v, uint32_t number) { return {v[0], v[1], v[2], round_to_float(number)}; }
+float4 row_of_gravity(const Vec3 &v, uint32_t number)
+{
+  return {v[0], v[1], v[2], round_to_float(static_cast<double>(number))};
+}
 
 /* Above so many worlds their gravity is uploaded at once: each transfer takes as long as some thousands of rows. */
 constexpr size_t few_worlds = 16;
