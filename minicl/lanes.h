@@ -13,9 +13,10 @@ constexpr int width = TANDEM_LANES;
  * frame that is not aligned. All such functions are therefore inlined. */
 #undef SHARED
 #define SHARED static inline __attribute__((always_inline))
-/* But for functions that go over all links of a tree, which inlined wherever they are called take GCC three quarters of
- * the compile time of a width. Vectors among their parameters and results are single ones, which stand in registers;
- * others they take by pointers. */
+/* But for functions that go over links of a tree, or call those that do: inlined wherever they are called, they take
+ * GCC three quarters of the compile time of a width. Vectors among their parameters and results are single ones, which
+ * stand in registers; others they take by pointers. They begin with a copy of the tree, because GCC keeps in registers
+ * what no other function knows, and would load it again after each store. */
 #undef CALLED
 #define CALLED static __attribute__((noinline, unused))
 

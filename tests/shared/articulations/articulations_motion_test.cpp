@@ -321,8 +321,6 @@ TEST_CASE("articulations: a limit stops a pendulum and bears its weight", "[arti
   CHECK(load_state(&tree.t, 0, STATE_ROW_IMPULSE).y * 240 == Approx(10 * 0.5 * std::cos(0.5)).epsilon(0.01));
 }
 
-/* The first arm is driven. The second hangs on it at its centre and stays by its inertia, until the stop of its joint,
- * far from where it is, takes it along. */
 namespace {
 
 /* Two rods after a substep in which a motor turns one and stops at half a radian bound the other. */
@@ -343,6 +341,8 @@ TreeState stopped_rods(size_t driven, double speed)
 
 } // namespace
 
+/* The first arm is driven. The second hangs on it at its centre and stays by its inertia, until the stop of its joint,
+ * far from where it is, takes it along. */
 TEST_CASE("articulations: a stop that another joint's motor brings into reach acts in the same pass", "[articulations]")
 {
   const TreeState s = stopped_rods(0, 1000);

@@ -44,7 +44,7 @@ public:
             uint(model_.links.size()),
             0u,
             uint(entries()),
-            uint(model_.size()),
+            entries() > 0 ? uint(model_.size()) : 0u,
             item,
             uint(model_.links.size())};
   }
