@@ -20,17 +20,32 @@ namespace {
 struct PlacedShape {
   const Body *body;
   const Shape *shape;
+  Vec3 size;
   Vec3 position;
   Quat orientation;
-  uint32_t material;
+  uint32_t code, material;
   Filter filter;
   float radius; /* of the whole body: kernels do not read that of a child */
 };
 
 PlacedShape shape_of_body(const Scene &scene, const Body &body)
 {
-  return {&body,         &scene.shapes[body.shape], body.shape_position,         body.shape_orientation,
-          body.material, filter_of(scene, body),    bounding_radius(scene, body)};
+  return {&body,
+          &scene.shapes[body.shape],
+          kernel_size(scene.shapes[body.shape]),
+          body.shape_position,
+          body.shape_orientation,
+          shape_code(scene, body),
+          body.material,
+          filter_of(scene, body),
+          bounding_radius(scene, body)};
+}
+
+/* Kernels take a ball of a compound for a capsule, of no length. */
+Vec3 size_of_child(const Shape &shape)
+{
+  const Vec3 size = kernel_size(shape);
+  return shape.type == ShapeType::sphere ? Vec3{size[0], 0, size[0]} : size;
 }
 
 PlacedShape shape_of_child(const Body &body, const Child &child)
@@ -40,16 +55,18 @@ PlacedShape shape_of_child(const Body &body, const Child &child)
   const auto &[qx, qy, qz, qw] = place.orientation;
   return {&body,
           &child.shape,
+          size_of_child(child.shape),
           {round_to_float(x), round_to_float(y), round_to_float(z)},
           {round_to_float(qx), round_to_float(qy), round_to_float(qz), round_to_float(qw)},
+          shape_code(body, child),
           child.material.value_or(body.material),
           filter_of(body, child),
           0};
 }
 
-uint32_t flags_of(const Scene &scene, const PlacedShape &placed)
+uint32_t flags_of(const PlacedShape &placed)
 {
-  return shape_code(scene, *placed.body) | static_cast<uint32_t>(placed.body->type) << 3 | placed.material << 8 |
+  return placed.code | static_cast<uint32_t>(placed.body->type) << 3 | placed.material << 8 |
          (placed.body->trigger ? uint32_t{BODY_FLAG_TRIGGER} : 0u) |
          (placed.body->continuous ? uint32_t{BODY_FLAG_CONTINUOUS} : 0u);
 }
@@ -64,7 +81,7 @@ public:
 
   void add(const PlacedShape &placed, BodyStatus status)
   {
-    const uint32_t flags = flags_of(scene_, placed) | (is_joined(*placed.body) ? uint32_t{BODY_FLAG_JOINED} : 0u);
+    const uint32_t flags = flags_of(placed) | (is_joined(*placed.body) ? uint32_t{BODY_FLAG_JOINED} : 0u);
     flags_.push_back(status == BodyStatus::free          ? flags_of_free_slot
                      : status == BodyStatus::quarantined ? as_absent(flags)
                                                          : flags);
@@ -103,7 +120,7 @@ public:
                              ? ShapeBox{}
                              : box_around(shape, placed.position, placed.orientation);
     properties_.add(placed, status);
-    sizes_.push_back(is_free ? float4{0, 0, 0, 0} : float4_of_vec(kernel_size(shape), placed.radius));
+    sizes_.push_back(is_free ? float4{0, 0, 0, 0} : float4_of_vec(placed.size, placed.radius));
     convexes_.insert(convexes_.end(),
                      {static_cast<uint32_t>(shape.type), shape.hull ? hulls_.at(shape.hull.get()) : 0});
     poses_.insert(poses_.end(), {float4_of_vec(placed.position, 0), float4{q[0], q[1], q[2], q[3]},

@@ -27,6 +27,8 @@ bool is_posed(const Body &body)
   return body.shape_position != Vec3{0, 0, 0} || body.shape_orientation != Quat{0, 0, 0, 1};
 }
 
+bool has_one_radius(const Shape &capsule) { return capsule.size[0] == capsule.size[2]; }
+
 /* Whether a row of pairs.def names the shape. */
 bool has_test_of_its_own(uint32_t code)
 {
@@ -51,15 +53,34 @@ struct Presence {
   bool dynamic[shape_codes] = {}; /* with triggers also kinematic bodies, because they meet fixed triggers */
 };
 
+/* Calls visit with the code of the body, or of each child of its compound. */
+template <class Visit> void for_each_code(const Scene &scene, const Body &body, const Visit &visit)
+{
+  const Shape &shape = scene.shapes[body.shape];
+  if (!shape.compound) visit(shape_code(scene, body));
+  else
+    for (const Child &child : shape.compound->children) visit(shape_code(body, child));
+}
+
 Presence presence_of(const Scene &scene)
 {
   Presence present;
   const bool triggers = has_triggers(scene);
   for (const Body &body : scene.bodies) {
     const bool moves = is_dynamic(body) || (triggers && body.type == BodyType::kinematic);
-    (moves ? present.dynamic : present.fixed)[shape_code(scene, body)] = true;
+    for_each_code(scene, body, [&](uint32_t code) { (moves ? present.dynamic : present.fixed)[code] = true; });
   }
   return present;
+}
+
+bool has_children_with_tests(const Scene &scene)
+{
+  return std::any_of(scene.bodies.begin(), scene.bodies.end(), [&](const Body &body) {
+    bool found = false;
+    if (scene.shapes[body.shape].compound)
+      for_each_code(scene, body, [&](uint32_t code) { found = found || code != SHAPE_OTHER; });
+    return found;
+  });
 }
 
 /* Tests the shapes of bodies and of children of compounds. */
@@ -144,9 +165,11 @@ Features pair_features(const Presence &present)
 }
 
 /* Lists pay if pairs of several kinds are mixed. Pairs with a half-space are few, because a body has at most one with
- * each half-space and only if it touches it; their kernel skips all other pairs in less time than the lists take. */
-Features list_features(Features features)
+ * each half-space and only if it touches it; their kernel skips all other pairs in less time than the lists take.
+ * Without lists the kinds of pairs are those of bodies (narrowphase/pair_lists.h), not those of their children. */
+Features list_features(const Scene &scene, Features features)
 {
+  if (has_children_with_tests(scene)) return FEATURE_PAIR_KINDS;
   const auto counts = [&](const PairTest &test) {
     return (features & test.feature) != 0 && test.second != "HALF_SPACE";
   };
@@ -298,9 +321,16 @@ uint32_t shape_code(const Scene &scene, const Body &body)
 {
   const Shape &shape = scene.shapes[body.shape];
   const auto code = static_cast<uint32_t>(shape.type);
-  const bool placed = code == SHAPE_CAPSULE ? shape.size[0] == shape.size[2] : !is_posed(body);
+  const bool placed = code == SHAPE_CAPSULE ? has_one_radius(shape) : !is_posed(body);
   const bool plain = placed && (!body.continuous || code == SHAPE_HALF_SPACE);
   return plain && has_test_of_its_own(code) ? code : uint32_t{SHAPE_OTHER};
+}
+
+uint32_t shape_code(const Body &body, const Child &child)
+{
+  const ShapeType type = child.shape.type;
+  const bool round = type == ShapeType::sphere || (type == ShapeType::capsule && has_one_radius(child.shape));
+  return round && !body.continuous ? uint32_t{SHAPE_CAPSULE} : uint32_t{SHAPE_OTHER};
 }
 
 Filter filter_of(const Body &body, const Child &child)
@@ -354,7 +384,7 @@ Features features_of(const Scene &scene, const Settings &settings)
 {
   const Features pairs = pair_features(presence_of(scene));
   Features features =
-      pairs | list_features(pairs) | point_features(pairs) | convex_features(scene) | body_features(scene);
+      pairs | list_features(scene, pairs) | point_features(pairs) | convex_features(scene) | body_features(scene);
   features |= narrowphase_features(scene, features, settings) | support_features(features, settings) |
               solver_features(settings.solver);
   features |= joint_features(scene) | coupling_features(scene);

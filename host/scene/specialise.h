@@ -70,6 +70,8 @@ bool is_general(const Scene &scene, const Body &body);
  * centred in its body, and the body has no continuous collision. A capsule may have any place, but its ends must have
  * one radius. */
 uint32_t shape_code(const Scene &scene, const Body &body);
+/* The same of a child of the body's compound. A ball is a capsule without length, because it may have any place. */
+uint32_t shape_code(const Body &body, const Child &child);
 
 /* The filter of a body or a child; see Body in scene.h. */
 struct Filter {

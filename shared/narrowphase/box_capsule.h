@@ -342,20 +342,22 @@ typedef struct {
 
 SHARED moving_box_and_capsule load_box_and_capsule(GLOBAL const uint *flags, GLOBAL const float4 *shapes,
                                                    GLOBAL const float4 *poses, read_bodies bodies,
-                                                   GLOBAL const Parameters *parameters, uint_lanes a, uint_lanes b)
+                                                   GLOBAL const Parameters *parameters, collider a, collider b)
 {
-  mask capsule_first = shape_of(load_uint(flags, a)) == (uint)SHAPE_CAPSULE;
-  uint_lanes rod = choose(capsule_first, a, b), box = choose(capsule_first, b, a);
+  mask capsule_first = shape_of(load_uint(flags, a.shape)) == (uint)SHAPE_CAPSULE;
+  collider rod = choose_collider(capsule_first, a, b);
+  uint_lanes box = choose(capsule_first, b.body, a.body);
   vec4 extent = load_float4(shapes, box);
   moving_box_and_capsule p;
-  p.pair.rod = capsule_of_body(shapes, poses, bodies.orientation, offset_between(bodies.position, box, rod),
-                               capsule_first & !capsule_first, rod);
+  p.pair.rod = capsule_of_collider(shapes, poses, bodies.orientation, offset_between(bodies.position, box, rod.body),
+                                   capsule_first & !capsule_first, rod);
   p.pair.extent = xyz(extent);
   p.pair.rotation = rotation_of(quat_from(load_float4(bodies.orientation, box)));
   p.pair.capsule_first = capsule_first;
-  p.moves = load_pair_motion(bodies, parameters, a, b, load_float4(shapes, a).w, load_float4(shapes, b).w);
+  p.moves = load_pair_motion(bodies, parameters, a.body, b.body, load_float4(shapes, a.body).w,
+                             load_float4(shapes, b.body).w);
   p.least = minimum(p.pair.rod.radius, least_of(p.pair.extent));
-  p.input = toi_input_of_step(parameters, p.moves, p.least, load_float4(shapes, rod).w + extent.w);
+  p.input = toi_input_of_step(parameters, p.moves, p.least, load_float4(shapes, rod.body).w + extent.w);
   return p;
 }
 
@@ -365,12 +367,12 @@ SHARED speculation speculation_of_box_and_capsule(GLOBAL const Parameters *param
   return speculation_of(parameters, m, offset_of_box_and_capsule(&p->pair), p->moves, p->input, p->least);
 }
 
-SHARED void collide_box_capsule_item(read_listed_pairs pairs, GLOBAL const uint *flags, GLOBAL const float4 *shapes,
-                                     GLOBAL const float4 *poses, read_bodies bodies,
+SHARED void collide_box_capsule_item(read_listed_part_pairs pairs, GLOBAL const uint *flags,
+                                     GLOBAL const float4 *shapes, GLOBAL const float4 *poses, read_bodies bodies,
                                      GLOBAL const Parameters *parameters, GLOBAL const uint *counts,
                                      write_manifolds manifolds, item_index i)
 {
-  handled item = handled_pair(parameters, pairs, flags, PAIR_KIND_BOX_CAPSULE, i);
+  handled_parts item = handled_part_pair(parameters, pairs, flags, PAIR_KIND_BOX_CAPSULE, i);
   if (!any_of(item.mine)) return;
   moving_box_and_capsule p = load_box_and_capsule(flags, shapes, poses, bodies, parameters, item.a, item.b);
   manifold m = box_capsule_within_reach(parameters, &p.pair, p.moves);

@@ -94,23 +94,23 @@ SHARED manifold capsule_on_plane_over_step(GLOBAL const Parameters *parameters, 
   return m;
 }
 
-SHARED void collide_capsule_half_space_item(read_listed_pairs pairs, GLOBAL const uint *flags,
+SHARED void collide_capsule_half_space_item(read_listed_part_pairs pairs, GLOBAL const uint *flags,
                                             GLOBAL const float4 *shapes, GLOBAL const float4 *poses, read_bodies bodies,
                                             GLOBAL const Parameters *parameters, GLOBAL const uint *counts,
                                             write_manifolds manifolds, item_index i)
 {
-  handled item = handled_pair(parameters, pairs, flags, PAIR_KIND_CAPSULE_HALF_SPACE, i);
+  handled_parts item = handled_part_pair(parameters, pairs, flags, PAIR_KIND_CAPSULE_HALF_SPACE, i);
   if (!any_of(item.mine)) return;
-  uint_lanes a = item.a, b = item.b;
-  mask capsule_first = shape_of(load_uint(flags, a)) == (uint)SHAPE_CAPSULE;
-  uint_lanes body = choose(capsule_first, a, b), plane = choose(capsule_first, b, a);
-  real zero = R(0.0), radius = load_float4(shapes, body).w;
-  capsule_and_plane pair = {capsule_of_body(shapes, poses, bodies.orientation,
-                                            offset_between(bodies.position, plane, body),
-                                            capsule_first & (!capsule_first), body),
+  mask capsule_first = shape_of(load_uint(flags, item.a.shape)) == (uint)SHAPE_CAPSULE;
+  collider rod = choose_collider(capsule_first, item.a, item.b);
+  uint_lanes plane = choose(capsule_first, item.b.body, item.a.body);
+  real zero = R(0.0), radius = load_float4(shapes, rod.body).w;
+  capsule_and_plane pair = {capsule_of_collider(shapes, poses, bodies.orientation,
+                                                offset_between(bodies.position, plane, rod.body),
+                                                capsule_first & (!capsule_first), rod),
                             axis_y(rotation_of(quat_from(load_float4(bodies.orientation, plane)))), capsule_first};
-  pair_motion moves = load_pair_motion(bodies, parameters, a, b, choose(capsule_first, radius, zero),
-                                       choose(capsule_first, zero, radius));
+  pair_motion moves = load_pair_motion(bodies, parameters, item.a.body, item.b.body,
+                                       choose(capsule_first, radius, zero), choose(capsule_first, zero, radius));
   manifold m = capsule_on_plane_over_step(parameters, item.mine, pair, moves);
   store_manifold_if(item.mine, m, planes_of(counts), manifolds, item.pair);
 }

@@ -6,7 +6,8 @@
  *                                     points are the only one. A sphere is a capsule without length.
  *
  * General convex shapes (collide_convex.h) would find the same contacts, one pair at a time. A capsule whose ends
- * differ in radius, that belongs to a compound or that has continuous collision is such a shape.
+ * differ in radius, or that has continuous collision, is such a shape. A ball of a compound is a capsule here, of no
+ * length.
  *
  * Pairs that may pass each other within the step are left to follow_capsules.h.
  */
@@ -32,15 +33,15 @@ typedef struct {
   capsule a, b;
 } capsule_pair;
 
-SHARED capsule capsule_of_body(GLOBAL const float4 *shapes, GLOBAL const float4 *poses,
-                               GLOBAL const float4 *orientations, vec3 pivot, mask is_sphere, uint_lanes body)
+SHARED capsule capsule_of_collider(GLOBAL const float4 *shapes, GLOBAL const float4 *poses,
+                                   GLOBAL const float4 *orientations, vec3 pivot, mask is_sphere, collider of)
 {
-  vec4 size = load_float4(shapes, body);
-  mat3 rotation = rotation_of(quat_from(load_float4(orientations, body)));
-  vec3 axis = axis_y(rotation_of(quat_from(load_float4(poses, body * 4u + 1u))));
+  vec4 size = load_float4(shapes, of.shape);
+  mat3 rotation = rotation_of(quat_from(load_float4(orientations, of.body)));
+  vec3 axis = axis_y(rotation_of(quat_from(load_float4(poses, of.shape * 4u + 1u))));
   capsule c;
   c.pivot = pivot;
-  c.middle = rotate(rotation, xyz(load_float4(poses, body * 4u)));
+  c.middle = rotate(rotation, xyz(load_float4(poses, of.shape * 4u)));
   c.to_end = scale(rotate(rotation, axis), choose(is_sphere, (real)R(0.0), size.y));
   c.radius = size.x;
   return c;
@@ -206,17 +207,19 @@ typedef struct {
 
 SHARED moving_capsules load_moving_capsules(GLOBAL const uint *flags, GLOBAL const float4 *shapes,
                                             GLOBAL const float4 *poses, read_bodies bodies,
-                                            GLOBAL const Parameters *parameters, uint_lanes a, uint_lanes b)
+                                            GLOBAL const Parameters *parameters, collider a, collider b)
 {
-  mask a_is_sphere = shape_of(load_uint(flags, a)) == (uint)SHAPE_SPHERE,
-       b_is_sphere = shape_of(load_uint(flags, b)) == (uint)SHAPE_SPHERE;
+  mask a_is_sphere = shape_of(load_uint(flags, a.shape)) == (uint)SHAPE_SPHERE,
+       b_is_sphere = shape_of(load_uint(flags, b.shape)) == (uint)SHAPE_SPHERE;
   real zero = R(0.0);
   moving_capsules p;
-  p.pair.a = capsule_of_body(shapes, poses, bodies.orientation, make_vec3(zero, zero, zero), a_is_sphere, a);
-  p.pair.b = capsule_of_body(shapes, poses, bodies.orientation, offset_between(bodies.position, a, b), b_is_sphere, b);
-  p.aside = parting_direction(parameters, bodies.gravity, a, b);
-  p.moves = load_pair_motion(bodies, parameters, a, b, choose(a_is_sphere, zero, load_float4(shapes, a).w),
-                             choose(b_is_sphere, zero, load_float4(shapes, b).w));
+  p.pair.a = capsule_of_collider(shapes, poses, bodies.orientation, make_vec3(zero, zero, zero), a_is_sphere, a);
+  p.pair.b = capsule_of_collider(shapes, poses, bodies.orientation, offset_between(bodies.position, a.body, b.body),
+                                 b_is_sphere, b);
+  p.aside = parting_direction(parameters, bodies.gravity, a.body, b.body);
+  p.moves =
+      load_pair_motion(bodies, parameters, a.body, b.body, choose(a_is_sphere, zero, load_float4(shapes, a.body).w),
+                       choose(b_is_sphere, zero, load_float4(shapes, b.body).w));
   p.least = minimum(p.pair.a.radius, p.pair.b.radius);
   real size = length_of(p.pair.a.to_end) + length_of(p.pair.b.to_end) + p.pair.a.radius + p.pair.b.radius;
   p.input = toi_input_of_step(parameters, p.moves, p.least, size);
@@ -228,11 +231,12 @@ SHARED speculation speculation_of_capsules(GLOBAL const Parameters *parameters, 
   return speculation_of(parameters, m, p->pair.b.pivot, p->moves, p->input, p->least);
 }
 
-SHARED void collide_capsules(uint kind, read_listed_pairs pairs, GLOBAL const uint *flags, GLOBAL const float4 *shapes,
-                             GLOBAL const float4 *poses, read_bodies bodies, GLOBAL const Parameters *parameters,
-                             GLOBAL const uint *counts, write_manifolds manifolds, item_index i)
+SHARED void collide_capsules(uint kind, read_listed_part_pairs pairs, GLOBAL const uint *flags,
+                             GLOBAL const float4 *shapes, GLOBAL const float4 *poses, read_bodies bodies,
+                             GLOBAL const Parameters *parameters, GLOBAL const uint *counts, write_manifolds manifolds,
+                             item_index i)
 {
-  handled item = handled_pair(parameters, pairs, flags, kind, i);
+  handled_parts item = handled_part_pair(parameters, pairs, flags, kind, i);
   if (!any_of(item.mine)) return;
   moving_capsules p = load_moving_capsules(flags, shapes, poses, bodies, parameters, item.a, item.b);
   manifold m = capsules_within_reach(parameters, p.pair, p.aside, p.moves);
@@ -240,16 +244,16 @@ SHARED void collide_capsules(uint kind, read_listed_pairs pairs, GLOBAL const ui
   mark_to_follow_if(item.mine & speculation_of_capsules(parameters, m, &p).asked, m, manifolds.count, item.pair);
 }
 
-SHARED void collide_capsule_capsule_item(read_listed_pairs pairs, GLOBAL const uint *flags, GLOBAL const float4 *shapes,
-                                         GLOBAL const float4 *poses, read_bodies bodies,
+SHARED void collide_capsule_capsule_item(read_listed_part_pairs pairs, GLOBAL const uint *flags,
+                                         GLOBAL const float4 *shapes, GLOBAL const float4 *poses, read_bodies bodies,
                                          GLOBAL const Parameters *parameters, GLOBAL const uint *counts,
                                          write_manifolds manifolds, item_index i)
 {
   collide_capsules(PAIR_KIND_CAPSULE_CAPSULE, pairs, flags, shapes, poses, bodies, parameters, counts, manifolds, i);
 }
 
-SHARED void collide_sphere_capsule_item(read_listed_pairs pairs, GLOBAL const uint *flags, GLOBAL const float4 *shapes,
-                                        GLOBAL const float4 *poses, read_bodies bodies,
+SHARED void collide_sphere_capsule_item(read_listed_part_pairs pairs, GLOBAL const uint *flags,
+                                        GLOBAL const float4 *shapes, GLOBAL const float4 *poses, read_bodies bodies,
                                         GLOBAL const Parameters *parameters, GLOBAL const uint *counts,
                                         write_manifolds manifolds, item_index i)
 {

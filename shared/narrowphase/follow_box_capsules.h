@@ -92,13 +92,15 @@ SHARED manifold with_middle_of_capsule(manifold m, const box_and_capsule *then, 
   return with_middle_ball(m, then->capsule_first ? none : then->rod.pivot, outward, height, radius);
 }
 
-SHARED void follow_pair_of_box_and_capsule(read_listed_pairs pairs, GLOBAL const uint *flags,
+SHARED void follow_pair_of_box_and_capsule(read_listed_part_pairs pairs, GLOBAL const uint *flags,
                                            GLOBAL const float4 *shapes, GLOBAL const float4 *poses, read_bodies bodies,
                                            GLOBAL const Parameters *parameters, GLOBAL const uint *counts,
                                            write_manifolds manifolds, uint i)
 {
   point_planes planes = planes_of(counts);
-  moving_box_and_capsule p = load_box_and_capsule(flags, shapes, poses, bodies, parameters, pairs.a[i], pairs.b[i]);
+  collider a = collider_of_pair(parameters, pairs.leaf, pairs.a[i], i, 0u),
+           b = collider_of_pair(parameters, pairs.leaf, pairs.b[i], i, 1u);
+  moving_box_and_capsule p = load_box_and_capsule(flags, shapes, poses, bodies, parameters, a, b);
   manifold m = load_manifold(planes, manifolds, i);
   speculation s = speculation_of_box_and_capsule(parameters, m, &p);
   encounter met = encounter_of(parameters, s, impact_of_box_and_capsule(&p, s.reached), p.input);
@@ -110,8 +112,8 @@ SHARED void follow_pair_of_box_and_capsule(read_listed_pairs pairs, GLOBAL const
 }
 
 /* local_memory: the list of followed_pairs.h. */
-SHARED void follow_box_capsules_group(read_listed_pairs pairs, GLOBAL const uint *flags, GLOBAL const float4 *shapes,
-                                      GLOBAL const float4 *poses, read_bodies bodies,
+SHARED void follow_box_capsules_group(read_listed_part_pairs pairs, GLOBAL const uint *flags,
+                                      GLOBAL const float4 *shapes, GLOBAL const float4 *poses, read_bodies bodies,
                                       GLOBAL const Parameters *parameters, GLOBAL const uint *counts,
                                       write_manifolds manifolds, LOCAL uint *local_memory, uint group)
 {

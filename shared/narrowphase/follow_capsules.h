@@ -59,12 +59,14 @@ SHARED advancement impact_of_capsules(mask reached, capsule_pair start, pair_mot
   return at;
 }
 
-SHARED void follow_pair_of_capsules(read_listed_pairs pairs, GLOBAL const uint *flags, GLOBAL const float4 *shapes,
+SHARED void follow_pair_of_capsules(read_listed_part_pairs pairs, GLOBAL const uint *flags, GLOBAL const float4 *shapes,
                                     GLOBAL const float4 *poses, read_bodies bodies, GLOBAL const Parameters *parameters,
                                     GLOBAL const uint *counts, write_manifolds manifolds, uint i)
 {
   point_planes planes = planes_of(counts);
-  moving_capsules p = load_moving_capsules(flags, shapes, poses, bodies, parameters, pairs.a[i], pairs.b[i]);
+  collider a = collider_of_pair(parameters, pairs.leaf, pairs.a[i], i, 0u),
+           b = collider_of_pair(parameters, pairs.leaf, pairs.b[i], i, 1u);
+  moving_capsules p = load_moving_capsules(flags, shapes, poses, bodies, parameters, a, b);
   manifold m = load_manifold(planes, manifolds, i);
   speculation s = speculation_of_capsules(parameters, m, &p);
   encounter met = encounter_of(parameters, s, impact_of_capsules(s.reached, p.pair, p.moves, p.input), p.input);
@@ -75,7 +77,7 @@ SHARED void follow_pair_of_capsules(read_listed_pairs pairs, GLOBAL const uint *
 }
 
 /* local_memory: the list of followed_pairs.h. */
-SHARED void follow_capsules_of_kind(uint kind, read_listed_pairs pairs, GLOBAL const uint *flags,
+SHARED void follow_capsules_of_kind(uint kind, read_listed_part_pairs pairs, GLOBAL const uint *flags,
                                     GLOBAL const float4 *shapes, GLOBAL const float4 *poses, read_bodies bodies,
                                     GLOBAL const Parameters *parameters, GLOBAL const uint *counts,
                                     write_manifolds manifolds, LOCAL uint *local_memory, uint group)
@@ -88,7 +90,7 @@ SHARED void follow_capsules_of_kind(uint kind, read_listed_pairs pairs, GLOBAL c
   }
 }
 
-SHARED void follow_capsules_group(read_listed_pairs pairs, GLOBAL const uint *flags, GLOBAL const float4 *shapes,
+SHARED void follow_capsules_group(read_listed_part_pairs pairs, GLOBAL const uint *flags, GLOBAL const float4 *shapes,
                                   GLOBAL const float4 *poses, read_bodies bodies, GLOBAL const Parameters *parameters,
                                   GLOBAL const uint *counts, write_manifolds manifolds, LOCAL uint *local_memory,
                                   uint group)
@@ -97,8 +99,8 @@ SHARED void follow_capsules_group(read_listed_pairs pairs, GLOBAL const uint *fl
                           local_memory, group);
 }
 
-SHARED void follow_sphere_capsules_group(read_listed_pairs pairs, GLOBAL const uint *flags, GLOBAL const float4 *shapes,
-                                         GLOBAL const float4 *poses, read_bodies bodies,
+SHARED void follow_sphere_capsules_group(read_listed_part_pairs pairs, GLOBAL const uint *flags,
+                                         GLOBAL const float4 *shapes, GLOBAL const float4 *poses, read_bodies bodies,
                                          GLOBAL const Parameters *parameters, GLOBAL const uint *counts,
                                          write_manifolds manifolds, LOCAL uint *local_memory, uint group)
 {

@@ -17,6 +17,9 @@
  *
  * The kernels that make the lists read a pair's bodies twice and write one word. A radix sort would move twice the
  * bytes, for its keys and values.
+ *
+ * In a scene with trees the kind of a pair is that of the parts that take part, so a capsule or ball of a compound has
+ * the tests of capsules. Such a scene has lists.
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_PAIR_LISTS_H
 #define TANDEM_SHARED_NARROWPHASE_PAIR_LISTS_H
@@ -53,6 +56,25 @@ SHARED mask is_of_kind(GLOBAL const Parameters *parameters, GLOBAL const uint *f
   return pair_kind(load_uint(flags, a), load_uint(flags, b)) == kind;
 }
 
+/* A body of a pair, and the shape of it that takes part: its own, or a child of its compound. */
+typedef struct {
+  uint_lanes body, shape;
+} collider;
+
+/* leaf: of the pairs; side: 0 for the first body, 1 for the second. */
+SHARED collider collider_of_pair(GLOBAL const Parameters *parameters, GLOBAL const uint *leaf, uint_lanes body,
+                                 uint_lanes pair, uint side)
+{
+  collider c = {body, shape_in_pair(parameters, leaf, pair, side, body)};
+  return c;
+}
+
+SHARED collider choose_collider(mask m, collider a, collider b)
+{
+  collider c = {choose(m, a.body, b.body), choose(m, a.shape, b.shape)};
+  return c;
+}
+
 SHARED handled handled_pair(GLOBAL const Parameters *parameters, read_listed_pairs pairs, GLOBAL const uint *flags,
                             uint kind, item_index i)
 {
@@ -67,6 +89,23 @@ SHARED handled handled_pair(GLOBAL const Parameters *parameters, read_listed_pai
   }
   h.mine = is_of_kind(parameters, flags, h.a, h.b, kind);
   return h;
+}
+
+/* The same with the shapes that take part. */
+typedef struct {
+  uint_lanes pair;
+  collider a, b;
+  mask mine;
+} handled_parts;
+
+SHARED handled_parts handled_part_pair(GLOBAL const Parameters *parameters, read_listed_part_pairs pairs,
+                                       GLOBAL const uint *flags, uint kind, item_index i)
+{
+  read_listed_pairs of_bodies = {pairs.a, pairs.b, pairs.of_kind};
+  handled h = handled_pair(parameters, of_bodies, flags, kind, i);
+  handled_parts parts = {h.pair, collider_of_pair(parameters, pairs.leaf, h.a, h.pair, 0u),
+                         collider_of_pair(parameters, pairs.leaf, h.b, h.pair, 1u), h.mine};
+  return parts;
 }
 
 #endif

@@ -1,4 +1,8 @@
 /* Compounds behave as the bodies they are made of, joined. */
+#include <algorithm>
+#include <cmath>
+
+#include "host/runtime/interface/kernel_list.h"
 #include "tests/catch.h"
 #include "tests/physics/bodies.h"
 
@@ -132,4 +136,116 @@ TEST_CASE("a mesh can be a child", "[physics]")
   const std::vector<BodyState> states = world.bodies();
   CHECK(std::abs(states[2].position[1] - 1.1) < 0.012);
   CHECK(vector_of(states[2].linear_velocity).norm() < 0.01);
+}
+
+namespace {
+
+/* Capsules with their centres of mass beside their middles, each with one thing to hit: the ground, a box of its own,
+ * or another capsule. The order of contacts then cannot matter. */
+Scene falling_capsules()
+{
+  Scene scene = empty_scene();
+  add_ground(scene);
+  Random random(4);
+  const auto add_capsule = [&](const Vector &at, const Vec3 &velocity) {
+    const double u = random.uniform(0, 1);
+    Body &body =
+        add_dynamic_body(scene, capsule_shape(float(0.05 + 0.1 * u), float(0.1 + 0.2 * u)), at, random.orientation());
+    body.shape_position[0] -= 0.03f;
+    body.linear_velocity = velocity;
+    body.angular_velocity = {0, float(random.uniform(-9, 9)), 3};
+  };
+  for (int k = 0; k < 24; ++k) {
+    const double x = 4.0 * k;
+    const float speed = k % 2 ? -30.0f : 0.0f;
+    add_capsule({x, 0.6, 0}, {0, speed, 0});
+    add_body(scene, BodyType::fixed, box_shape(0.9f, 1, 0.9f), {x, 1, 8});
+    add_capsule({x, 2.6, 8}, {0, speed, 0});
+    add_capsule({x, 20, 16}, {0, 0, 0});
+    add_capsule({x + 0.1, 20.6, 16}, {0, speed - 2, 0});
+  }
+  return scene;
+}
+
+/* Each capsule becomes the only child of a compound, and the bodies keep their masses. */
+Scene with_capsules_as_children(Scene scene)
+{
+  for (Body &body : scene.bodies)
+    if (body.type == BodyType::dynamic) {
+      body.inertia = inertia_of(scene.shapes[body.shape], body.mass);
+      scene.shapes[body.shape] = compound_shape({child_of(scene.shapes[body.shape], {0, 0, 0})});
+    }
+  return scene;
+}
+
+bool launches(const World &world, Kernel kernel)
+{
+  const std::vector<Kernel> kernels = world.kernels();
+  return std::find(kernels.begin(), kernels.end(), kernel) != kernels.end();
+}
+
+} // namespace
+
+TEST_CASE("a compound of one capsule moves as a body of that capsule, to the bit", "[physics]")
+{
+  World bodies(falling_capsules()), compounds(with_capsules_as_children(falling_capsules()));
+  CHECK(launches(compounds, Kernel::collide_box_capsule));
+  CHECK_FALSE(launches(compounds, Kernel::collide_convex));
+  uint32_t contacts = 0;
+  for (int step = 0; step < 90; ++step) {
+    bodies.step();
+    compounds.step();
+    contacts = std::max(contacts, compounds.statistics().contacts);
+    REQUIRE(bodies.body_hash() == compounds.body_hash());
+  }
+  CHECK(contacts > 60);
+}
+
+namespace {
+
+/* Three balls, and one that lies on them; all touch at one point each. */
+Scene tripod(bool continuous)
+{
+  std::vector<Child> feet;
+  for (int k = 0; k < 3; ++k)
+    feet.push_back(child_of(sphere_shape(0.1f), {0.4 * std::cos(2 * pi * k / 3), 0, 0.4 * std::sin(2 * pi * k / 3)}));
+  Scene scene = empty_scene();
+  add_ground(scene);
+  add_dynamic_body(scene, compound_shape(feet), {0, 0.15, 0}).continuous = continuous;
+  add_dynamic_body(scene, sphere_shape(0.5f), {0, 0.9, 0});
+  return scene;
+}
+
+} // namespace
+
+/* Balls of compounds are capsules without length. */
+TEST_CASE("a tripod of three balls stands on them, and a ball on it", "[physics]")
+{
+  World world(tripod(false));
+  CHECK(launches(world, Kernel::collide_sphere_capsule));
+  CHECK(launches(world, Kernel::collide_capsule_half_space));
+  CHECK_FALSE(launches(world, Kernel::collide_convex));
+  run(world, 300);
+  const std::vector<BodyState> states = world.bodies();
+  CHECK(world.statistics().contacts == 6);
+  CHECK(std::abs(states[1].position[1] - 0.1) < 0.006);
+  /* Its middle is sqrt(0.6^2 - 0.4^2) above theirs. */
+  CHECK(std::abs(states[2].position[1] - (0.1 + std::sqrt(0.36 - 0.16))) < 0.012);
+  CHECK(vector_of(states[2].linear_velocity).norm() < 0.005);
+}
+
+TEST_CASE("children of a compound that ceases to be continuous have the tests of their shapes", "[physics]")
+{
+  World always(tripod(false)), before(tripod(true));
+  CHECK(launches(before, Kernel::collide_convex));
+  before.set_continuous(before.id_of(1), false);
+  for (int step = 0; step < 60; ++step) {
+    always.step();
+    before.step();
+    REQUIRE(always.body_hash() == before.body_hash());
+  }
+  CHECK(launches(before, Kernel::collide_sphere_capsule));
+  before.set_continuous(before.id_of(1), true);
+  run(before, 60);
+  CHECK(before.statistics().contacts == 6);
 }

@@ -21,8 +21,15 @@ using namespace tandem;
 
 namespace {
 
+/* leaf: as pair_leaf, in scenes with trees; the flags of the shapes of parts follow those of bodies. */
 struct Pairs {
-  std::vector<uint32_t> a, b, flags;
+  std::vector<uint32_t> a, b, flags, leaf;
+
+  Features features() const { return FEATURE_PAIR_KINDS | (leaf.empty() ? 0 : FEATURE_TREES); }
+  uint32_t code(uint32_t pair, uint32_t side) const
+  {
+    return flags[leaf.empty() ? (side == 0 ? a : b)[pair] : leaf[4 * pair + 2 * side]] & 7;
+  }
 };
 
 /* Flags of bodies with the given shapes; the other bits must not matter. */
@@ -36,6 +43,19 @@ Pairs random_pairs(uint32_t count, const std::vector<uint32_t> &shapes, uint64_t
     pairs.a.push_back(random.below(50));
     pairs.b.push_back(random.below(50));
   }
+  return pairs;
+}
+
+/* Each of the bodies is a compound of as many parts as there are shapes. */
+Pairs random_pairs_of_parts(uint32_t count, const std::vector<uint32_t> &shapes, uint64_t seed)
+{
+  Random random(seed);
+  Pairs pairs = random_pairs(count, {SHAPE_OTHER}, seed + 1);
+  const auto bodies = static_cast<uint32_t>(pairs.flags.size()), parts = static_cast<uint32_t>(shapes.size());
+  for (uint32_t body = 0; body < bodies; ++body) pairs.flags.insert(pairs.flags.end(), shapes.begin(), shapes.end());
+  for (uint32_t pair = 0; pair < count; ++pair)
+    for (const uint32_t body : {pairs.a[pair], pairs.b[pair]})
+      pairs.leaf.insert(pairs.leaf.end(), {bodies + parts * body + random.below(parts), INDEX_NONE});
   return pairs;
 }
 
@@ -64,8 +84,7 @@ PairLists pairs_by_hand(const Pairs &pairs)
   for (uint32_t kind = 0; kind <= PAIR_KIND_NONE; ++kind) {
     lists.starts.push_back(static_cast<uint32_t>(lists.pairs.size()));
     for (uint32_t pair = 0; pair < pairs.a.size(); ++pair)
-      if (kind_by_hand(pairs.flags[pairs.a[pair]] & 7, pairs.flags[pairs.b[pair]] & 7) == kind)
-        lists.pairs.push_back(pair);
+      if (kind_by_hand(pairs.code(pair, 0), pairs.code(pair, 1)) == kind) lists.pairs.push_back(pair);
   }
   return lists;
 }
@@ -78,20 +97,25 @@ PairLists pairs_on_backend(const std::string &name, const Pairs &pairs)
   std::vector<Kernel> kernels = {Kernel::count_pair_kinds, Kernel::start_pair_lists, Kernel::list_pairs};
   for (size_t k = 0; k < kernel_count; ++k)
     if (row_of(kernel_at(k)).stage == Stage::parallel) kernels.push_back(kernel_at(k));
-  backend->prepare(FEATURE_PAIR_KINDS, kernels);
+  backend->prepare(pairs.features(), kernels);
   const Sizes sizes{.bodies = static_cast<uint32_t>(pairs.flags.size()),
                     .materials = 1,
                     .hulls = {},
                     .trees = {},
                     .pairs = capacity,
                     .cells = 1024,
-                    .features = FEATURE_PAIR_KINDS};
+                    .features = pairs.features()};
   for (Buffer buffer : {Buffer::pair_of_kind, Buffer::sort_histogram, Buffer::scan_sums})
     memory.resize(buffer, bytes_of(buffer, sizes));
   std::vector<uint32_t> counts(COUNT_TOTAL);
   counts[COUNT_ONE] = 1;
   counts[COUNT_PAIRS] = count;
+  Parameters parameters{};
+  parameters.features = pairs.features();
+  memory.resize(Buffer::parameters, sizeof parameters);
+  memory.upload(Buffer::parameters, &parameters, sizeof parameters);
   set_words(memory, Buffer::counts, counts);
+  set_words(memory, Buffer::pair_leaf, pairs.leaf);
   set_words(memory, Buffer::pair_a, pairs.a);
   set_words(memory, Buffer::pair_b, pairs.b);
   set_words(memory, Buffer::body_flags, pairs.flags);
@@ -102,6 +126,18 @@ PairLists pairs_on_backend(const std::string &name, const Pairs &pairs)
   lists.pairs = memory.read<uint32_t>(Buffer::pair_of_kind, count);
   backend->finish();
   return lists;
+}
+
+Pairs pairs_of_step(World &world)
+{
+  Memory &memory = world.memory();
+  const uint32_t count = memory.read<uint32_t>(Buffer::counts, 1, COUNT_PAIRS).at(0);
+  Pairs pairs{memory.read<uint32_t>(Buffer::pair_a, count),
+              memory.read<uint32_t>(Buffer::pair_b, count),
+              memory.read<uint32_t>(Buffer::body_flags, memory.bytes(Buffer::body_flags) / sizeof(uint32_t)),
+              {}};
+  if ((world.features() & FEATURE_TREES) != 0) pairs.leaf = memory.read<uint32_t>(Buffer::pair_leaf, 4 * count);
+  return pairs;
 }
 
 std::string text_of(const std::string &path)
@@ -153,6 +189,19 @@ TEST_CASE("pair lists: each pair once, in the list of its kind, in order", "[san
   }
 }
 
+TEST_CASE("pair lists: a pair of parts is of the kind of their shapes", "[sanitizer]")
+{
+  for (const uint32_t count : {1u, TILE, 3 * TILE + 7}) {
+    const Pairs pairs = random_pairs_of_parts(count, {SHAPE_CAPSULE, SHAPE_OTHER, SHAPE_CAPSULE}, count);
+    const PairLists expected = pairs_by_hand(pairs);
+    REQUIRE(expected.pairs.size() == count);
+    for (const char *name : {"serial", "serial:order=backward", "tbb:threads=7"}) {
+      CAPTURE(name, count);
+      CHECK((pairs_on_backend(name, pairs) == expected));
+    }
+  }
+}
+
 TEST_CASE("pair lists: the same on OpenCL")
 {
   parity::require_pocl();
@@ -161,6 +210,8 @@ TEST_CASE("pair lists: the same on OpenCL")
         random_pairs(count, {SHAPE_SPHERE, SHAPE_BOX, SHAPE_CAPSULE, SHAPE_HALF_SPACE, SHAPE_OTHER}, count);
     CHECK((pairs_on_backend("cl:pocl", pairs) == pairs_by_hand(pairs)));
   }
+  const Pairs parts = random_pairs_of_parts(TILE + 3, {SHAPE_CAPSULE, SHAPE_OTHER}, 5);
+  CHECK((pairs_on_backend("cl:pocl", parts) == pairs_by_hand(parts)));
 }
 
 TEST_CASE("pair lists: a scene has them where pairs of several kinds mix")
@@ -182,8 +233,7 @@ TEST_CASE("pair lists: those of a step hold the pairs of the step", "[sanitizer]
   for (int step = 0; step < 40; ++step) world.step();
   Memory &memory = world.memory();
   const uint32_t count = memory.read<uint32_t>(Buffer::counts, 1, COUNT_PAIRS).at(0);
-  const Pairs pairs{memory.read<uint32_t>(Buffer::pair_a, count), memory.read<uint32_t>(Buffer::pair_b, count),
-                    memory.read<uint32_t>(Buffer::body_flags, world.scene().bodies.size())};
+  const Pairs pairs = pairs_of_step(world);
   const PairLists lists{memory.read<uint32_t>(Buffer::counts, PAIR_KIND_NONE + 1, KIND_START),
                         memory.read<uint32_t>(Buffer::pair_of_kind, count)};
   CHECK((lists == pairs_by_hand(pairs)));
@@ -208,15 +258,13 @@ TEST_CASE("pair kinds: a scene has the kernel of every pair that it makes")
   size_t met = 0;
   for (const Scene &scene : scenes) {
     World world(scene, Settings{}, Placement{"serial", {}, false});
-    world.keep_after_steps(Buffer::pair_a);
+    for (const Buffer buffer : {Buffer::pair_a, Buffer::pair_leaf}) world.keep_after_steps(buffer);
     for (int step = 0; step < 12; ++step) world.step();
-    Memory &memory = world.memory();
-    const uint32_t count = memory.read<uint32_t>(Buffer::counts, 1, COUNT_PAIRS).at(0);
-    const auto a = memory.read<uint32_t>(Buffer::pair_a, count), b = memory.read<uint32_t>(Buffer::pair_b, count),
-               flags = memory.read<uint32_t>(Buffer::body_flags, world.scene().bodies.size());
+    const Pairs pairs = pairs_of_step(world);
+    const auto count = static_cast<uint32_t>(pairs.a.size());
     CAPTURE(scene.name);
     for (uint32_t pair = 0; pair < count; ++pair) {
-      const uint32_t kind = pair_kind(flags[a[pair]], flags[b[pair]]);
+      const uint32_t kind = pair_kind(pairs.code(pair, 0), pairs.code(pair, 1));
       REQUIRE(kind != PAIR_KIND_NONE);
       REQUIRE((world.features() & pair_tests[kind].feature) != 0);
       ++met;

@@ -218,6 +218,7 @@ private:
     case Buffer::body_velocity: return velocities_.data();
     case Buffer::body_gravity: return nullptr; /* of batches of worlds alone */
     case Buffer::parameters: return &parameters;
+    case Buffer::pair_leaf: return nullptr; /* of scenes with trees alone */
     case Buffer::counts: return counts_.data();
     case Buffer::manifold_normal: return outputs.normals.data();
     case Buffer::manifold_points: return outputs.points.data();
