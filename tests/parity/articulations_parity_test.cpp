@@ -165,7 +165,7 @@ TEST_CASE("parity on CPU: joints that hold links, whose trees have loops and han
 TEST_CASE("parity on OpenCL: joints that hold links")
 {
   require_pocl();
-  require_parity(joined_trees(3, 6), {"serial", "cl:pocl"}, 6);
+  require_parity(joined_trees(3, 6), {"serial", "cl:pocl"}, 6, build_of_all_features());
 }
 
 TEST_CASE("parity on OpenCL: articulations")

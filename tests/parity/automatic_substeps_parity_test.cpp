@@ -6,9 +6,11 @@ using namespace tandem::parity;
 
 namespace {
 
-void require_same_choice(const std::string &name, const std::vector<std::string> &backends, uint64_t steps)
+void require_same_choice(const std::string &name, const std::vector<std::string> &backends, uint64_t steps,
+                         const Settings &settings = {})
 {
   ComparisonRequest request;
+  request.settings = settings;
   request.settings.substeps = automatic_substeps;
   request.backends = backends;
   request.steps = steps;
@@ -30,5 +32,5 @@ TEST_CASE("parity on OpenCL: automatic substeps", "[opencl]")
 {
   require_pocl();
   for (const char *name : {"mass-ratio", "mixed:n=60", "tower:levels=12", "tops"})
-    require_same_choice(name, {"serial", "cl:pocl"}, 6);
+    require_same_choice(name, {"serial", "cl:pocl"}, 6, build_of_all_features());
 }

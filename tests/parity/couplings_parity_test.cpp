@@ -78,7 +78,7 @@ TEST_CASE("parity on CPU: couplings of every type, and past the last colour")
 TEST_CASE("parity on OpenCL: couplings")
 {
   require_pocl();
-  require_parity(with_spheres_alone(coupling_crowd()), {"serial", "cl:pocl"}, 8);
+  require_parity(with_spheres_alone(coupling_crowd()), {"serial", "cl:pocl"}, 8, build_of_all_features());
 }
 
 TEST_CASE("couplings in their own place, and with every feature built, have the same bits")

@@ -10,12 +10,6 @@ namespace {
 const std::vector<std::string> orders_and_widths = {"serial", "serial:order=backward", "serial:order=shuffled",
                                                     "tbb:threads=7,lanes=8", "tbb"};
 
-Settings all_features(Settings settings)
-{
-  settings.specialise = false;
-  return settings;
-}
-
 } // namespace
 
 TEST_CASE("parity on CPU: jacobi", "[sanitizer]")
@@ -41,9 +35,9 @@ TEST_CASE("parity on OpenCL: jacobi and the overflow constraints")
 {
   require_pocl();
   const std::vector<std::string> backends = {"serial", "cl:pocl"};
-  require_parity("mixed:n=60", backends, 15, all_features(settings_for(Solver::jacobi)));
-  require_parity(physics_tests::laden_slab(35), backends, 3, all_features(settings_for(Solver::jacobi)));
-  require_parity(physics_tests::laden_slab(13, 0.5f), backends, 8, all_features({}));
+  require_parity("mixed:n=60", backends, 15, build_of_all_features(settings_for(Solver::jacobi)));
+  require_parity(physics_tests::laden_slab(35), backends, 3, build_of_all_features(settings_for(Solver::jacobi)));
+  require_parity(physics_tests::laden_slab(13, 0.5f), backends, 8, build_of_all_features());
 }
 
 TEST_CASE("jacobi and the overflow constraints are the same in a specialised build")
@@ -51,7 +45,7 @@ TEST_CASE("jacobi and the overflow constraints are the same in a specialised bui
   for (const Solver solver : {Solver::jacobi, Solver::soft_step}) {
     Settings settings = settings_for(solver);
     World special(physics_tests::laden_slab(12), settings, {"serial", {}, false});
-    World general(physics_tests::laden_slab(12), all_features(settings), {"serial", {}, false});
+    World general(physics_tests::laden_slab(12), build_of_all_features(settings), {"serial", {}, false});
     for (int step = 0; step < 10; ++step) {
       special.step();
       general.step();

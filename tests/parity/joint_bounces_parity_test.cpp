@@ -114,7 +114,7 @@ TEST_CASE("parity on CPU: limits of joints that bounce")
 TEST_CASE("parity on OpenCL: limits of joints that bounce")
 {
   require_pocl();
-  require_parity(bouncing_limits(), {"serial", "cl:pocl"}, 15);
+  require_parity(bouncing_limits(), {"serial", "cl:pocl"}, 15, build_of_all_features());
 }
 
 TEST_CASE(

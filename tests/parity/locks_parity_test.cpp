@@ -49,5 +49,5 @@ TEST_CASE("parity on CPU: locked axes with every solver that has them", "[saniti
 TEST_CASE("parity on OpenCL: locked axes and highest speeds")
 {
   require_pocl();
-  require_parity(locked("mixed:n=40"), {"serial", "cl:pocl"}, 40);
+  require_parity(locked("mixed:n=40"), {"serial", "cl:pocl"}, 40, build_of_all_features());
 }

@@ -9,35 +9,25 @@
 using namespace tandem;
 using namespace tandem::parity;
 
-namespace {
-
-Settings all_features()
-{
-  Settings settings;
-  settings.specialise = false;
-  return settings;
-}
-
-} // namespace
-
 TEST_CASE("parity on OpenCL: every scene")
 {
   require_pocl();
-  for (const std::string &scene : small_scenes()) require_parity(scene, {"serial", "cl:pocl"}, 12, all_features());
+  for (const std::string &scene : small_scenes())
+    require_parity(scene, {"serial", "cl:pocl"}, 12, build_of_all_features());
 }
 
 /* A device is given the number of groups to run before the number of pairs of the step is known. */
 TEST_CASE("parity on OpenCL: pairs that grow in number")
 {
   require_pocl();
-  require_parity(imploding_boxes(), {"serial", "cl:pocl"}, 5, all_features());
+  require_parity(imploding_boxes(), {"serial", "cl:pocl"}, 5, build_of_all_features());
 }
 
 TEST_CASE("parity on OpenCL: every broadphase")
 {
   require_pocl();
   for (const Broadphase broadphase : choices<Broadphase>()) {
-    Settings settings = all_features();
+    Settings settings = build_of_all_features();
     settings.broadphase = broadphase;
     settings.bounds = Bounds::tight;
     settings.pair_events = true;
@@ -50,7 +40,7 @@ TEST_CASE("parity on OpenCL: every batching")
 {
   require_pocl();
   for (const Batching batching : choices<Batching>()) {
-    Settings settings = all_features();
+    Settings settings = build_of_all_features();
     settings.batching = batching;
     settings.check = true;
     require_parity("mixed:n=60", {"serial", "cl:pocl"}, 10, settings);
@@ -61,7 +51,7 @@ TEST_CASE("parity on OpenCL: every narrowphase")
 {
   require_pocl();
   for (const Narrowphase narrowphase : choices<Narrowphase>()) {
-    Settings settings = all_features();
+    Settings settings = build_of_all_features();
     settings.narrowphase = narrowphase;
     CAPTURE(narrowphase);
     require_parity(every_shape(), {"serial", "cl:pocl"}, 10, settings);
@@ -72,7 +62,7 @@ TEST_CASE("parity on OpenCL: every narrowphase")
 TEST_CASE("parity on OpenCL: trees by subtrees")
 {
   require_pocl();
-  Settings settings = all_features();
+  Settings settings = build_of_all_features();
   settings.midphase = Midphase::subtrees;
   require_parity(few_trees(), {"serial", "cl:pocl"}, 20, settings);
 }

@@ -12,6 +12,7 @@
 #include "minicl/kernel_table.h"
 #include "tests/catch.h"
 #include "tests/host/runtime/opencl/pocl.h"
+#include "tests/share_of_steps.h"
 
 namespace tandem::parity {
 
@@ -87,9 +88,10 @@ inline std::string describe(const Difference &difference)
 }
 
 /* Compares every kernel of every step. A run in which nothing was compared fails. */
-inline void require_parity(const Scene &scene, const std::vector<std::string> &backends, uint64_t steps,
+inline void require_parity(const Scene &scene, const std::vector<std::string> &backends, uint64_t usual_steps,
                            const Settings &settings = {})
 {
+  const uint64_t steps = ::tests::share_of_steps(usual_steps);
   ComparisonRequest request;
   request.settings = settings;
   request.backends = backends;
@@ -106,6 +108,14 @@ inline void require_parity(const std::string &scene, const std::vector<std::stri
 {
   CAPTURE(scene);
   require_parity(load_scene(scene), backends, steps, settings);
+}
+
+/* Tests on PoCL share one build of all features, since to compile one takes far longer than their steps do;
+ * specialised_test.cpp and a few others have builds of their own. */
+inline Settings build_of_all_features(Settings settings = {})
+{
+  settings.specialise = false;
+  return settings;
 }
 
 /* The hash of the bodies and the contact cache after a number of steps. */

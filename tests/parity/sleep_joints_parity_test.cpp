@@ -72,10 +72,11 @@ Settings sleeping_settings()
   return settings;
 }
 
-void require_equal(const Scene &scene, std::vector<std::string> backends, uint64_t steps)
+void require_equal(const Scene &scene, std::vector<std::string> backends, uint64_t steps,
+                   const Settings &settings = sleeping_settings())
 {
   ComparisonRequest request;
-  request.settings = sleeping_settings();
+  request.settings = settings;
   request.backends = std::move(backends);
   request.steps = steps;
   request.before_step = disturb;
@@ -95,7 +96,7 @@ TEST_CASE("parity on CPU: joints that sleep and wake")
 TEST_CASE("parity on OpenCL: joints that sleep and wake")
 {
   require_pocl();
-  require_equal(rows_of_boxes(), {"tbb", "cl:pocl"}, 100);
+  require_equal(rows_of_boxes(), {"tbb", "cl:pocl"}, 100, build_of_all_features(sleeping_settings()));
 }
 
 /* The scenes must do what they are for. */

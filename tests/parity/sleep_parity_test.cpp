@@ -96,6 +96,13 @@ ComparisonRequest request_on(std::vector<std::string> backends, uint64_t steps, 
   return request;
 }
 
+ComparisonRequest request_on_pocl()
+{
+  ComparisonRequest request = request_on({"tbb", "cl:pocl"}, 120, Broadphase::grid);
+  request.settings = build_of_all_features(request.settings);
+  return request;
+}
+
 void require_equal(const ComparisonRequest &request, const Scene &scene = heaps())
 {
   const Comparison comparison = compare_backends(scene, request);
@@ -119,7 +126,7 @@ TEST_CASE("parity on CPU: islands that sleep, with broadphases that keep lists",
 TEST_CASE("parity on OpenCL: islands that fall asleep and wake")
 {
   require_pocl();
-  require_equal(request_on({"tbb", "cl:pocl"}, 120, Broadphase::grid));
+  require_equal(request_on_pocl());
 }
 
 TEST_CASE("parity on CPU: articulations that fall asleep and wake", "[articulations]")
@@ -130,7 +137,7 @@ TEST_CASE("parity on CPU: articulations that fall asleep and wake", "[articulati
 TEST_CASE("parity on PoCL: articulations that fall asleep and wake", "[articulations]")
 {
   require_pocl();
-  require_equal(request_on({"tbb", "cl:pocl"}, 120, Broadphase::grid), heaps_and_trees());
+  require_equal(request_on_pocl(), heaps_and_trees());
 }
 
 TEST_CASE("a snapshot with sleepers goes on with the same bits on another backend", "[sanitizer]")

@@ -38,8 +38,9 @@ TEST_CASE("parity on OpenCL: joints and couplings in every solver that has them"
   require_pocl();
   for (const Solver solver : other_solvers_with_joints()) {
     CAPTURE(solver);
-    require_parity(joint_axes(), {"serial", "cl:pocl"}, 10, settings_for(solver));
-    require_parity(coupling_crowd(1, 40), {"serial", "cl:pocl"}, 6, settings_for(solver));
+    const Settings settings = build_of_all_features(settings_for(solver));
+    require_parity(joint_axes(), {"serial", "cl:pocl"}, 10, settings);
+    require_parity(coupling_crowd(1, 40), {"serial", "cl:pocl"}, 6, settings);
   }
 }
 
