@@ -28,6 +28,11 @@ float number_at(const Actuator &actuator, float control)
   return actuator.offset + product;
 }
 
+void numbers_at(std::span<const Actuator> actuators, const float *controls, float *numbers)
+{
+  for (size_t k = 0; k < actuators.size(); ++k) numbers[k] = number_at(actuators[k], controls[k]);
+}
+
 bool has_control_range(const Actuator &actuator)
 {
   return actuator.lower <= actuator.upper && actuator.lower < Actuator::unlimited &&

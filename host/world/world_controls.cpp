@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -170,11 +171,13 @@ Worlds::Controls::Target Worlds::Controls::target_of(const World::Implementation
 {
   const Joint &whole = engine.scene.joints[joint];
   JointAxis axis = axis_of(whole, control.axis);
-  Target target{joint, Buffer::link_range, 0, controlled_number(axis, control.what), 0, 0};
+  Target target{joint, Buffer::link_range, 0, controlled_number(axis, control.what), 0, 0, 0};
   controlled_number(axis, control.what) = 0;
   const auto rows = row_of_axis(axis);
   target.damping = rows[1].y;
   target.rest = rows[0].w;
+  target.surely = std::numeric_limits<float>::max();
+  if (control.what == Control::force) target.surely = std::min(target.surely, 0.999f * fastest_damper * target.damping);
   size_t row = 0;
   if (engine.is_in_tree(joint) && !has_rows_besides_tree(whole)) {
     const TreePlace &place = engine.links.places[engine.links.of_joint[joint]];
@@ -214,38 +217,44 @@ float Worlds::Controls::number_written(size_t target) const
   return one.damping > 0 ? one.value + one.rest : one.value;
 }
 
-/* The number of the axis for which the value stands. */
-float Worlds::Controls::number_of(size_t control, float value) const
+void Worlds::Controls::find_numbers(const float *values, float *numbers) const
 {
-  return actuators_.empty() ? value : number_at(actuators_[control], value);
+  if (actuators_.empty()) std::copy_n(values, count(), numbers);
+  else numbers_at(actuators_, values, numbers);
 }
 
-void Worlds::Controls::check(uint32_t world, const float *values) const
+void Worlds::Controls::check(uint32_t world, const float *values, const float *numbers) const
 {
+  const Target *targets = &targets_[world * count()];
+  bool are_held = true;
+  for (size_t k = 0; k < count(); ++k) are_held &= std::abs(numbers[k]) <= targets[k].surely;
+  if (are_held) return;
   for (size_t k = 0; k < count(); ++k) {
     const bool is_force = chosen_[k].what == Control::force;
-    const float damping = targets_[world * count() + k].damping, number = number_of(k, values[k]);
-    if (std::isfinite(number) && (!is_force || can_hold(damping, number))) continue;
+    const float damping = targets[k].damping;
+    if (std::isfinite(numbers[k]) && (!is_force || can_hold(damping, numbers[k]))) continue;
     const bool is_mapped = !actuators_.empty() && std::isfinite(values[k]);
     throw InputError(fmt::format(
         "set_controls: control {} of world {} is {:g}{}; {} is needed", k, world, values[k],
-        is_mapped ? fmt::format(", of which its axis gets {:g}", number) : "",
+        is_mapped ? fmt::format(", of which its axis gets {:g}", numbers[k]) : "",
         is_force ? fmt::format("at most {:g}, of its damping {:g}, in size", fastest_damper * damping, damping)
                  : "a finite number"));
   }
 }
 
 /* A force and a target velocity of one axis have the bits of row_of_axis, whichever of them is written. */
-void Worlds::Controls::keep(uint32_t world, const float *values)
+void Worlds::Controls::keep(uint32_t world, const float *numbers)
 {
-  Target *targets = &targets_[world * count()];
+  const size_t first = world * count();
+  Target *targets = &targets_[first];
   for (size_t k = 0; k < count(); ++k) {
     Target &target = targets[k];
-    target.value = number_of(k, values[k]);
+    target.value = numbers[k];
     if (partner_[k] == no_partner) continue;
     const bool is_force = chosen_[k].what == Control::force;
     targets[partner_[k]].rest = is_force ? target.value / target.damping : target.value;
   }
+  for (size_t k = 0; k < count(); ++k) written_[first + k] = number_written(first + k);
 }
 
 /* Of two partners the first one does, so that no number is written twice at the same time. */
@@ -293,22 +302,24 @@ void Worlds::Controls::make_room(Memory &memory, const Written &written)
 
 void Worlds::Controls::write(World::Implementation &engine, const Written &written)
 {
-  std::vector<float> numbers(written.targets.size());
-  for_each_in_parts(numbers.size(), 4096, [&](size_t i) { numbers[i] = number_written(written.targets[i]); });
+  const size_t items = written.targets.size();
+  const bool is_whole = items == targets_.size(); /* then target i is the one at place i */
+  if (!is_whole)
+    for (size_t i = 0; i < items; ++i) numbers_[i] = written_[written.targets[i]];
   Memory &memory = engine.memory;
-  const size_t bytes = numbers.size() * sizeof(float);
-  memory.upload(Buffer::control_number, numbers.data(), bytes);
+  const size_t bytes = items * sizeof(float);
+  memory.upload(Buffer::control_number, (is_whole ? written_ : numbers_).data(), bytes);
   if (!has_places_of_all_ || &written != of_all_.data())
     memory.upload(Buffer::control_place, written.places.data(), bytes);
   has_places_of_all_ = of_all_.size() == 1 && &written == of_all_.data();
-  const auto items = static_cast<uint32_t>(numbers.size());
-  set_length(memory, items);
+  const auto length = static_cast<uint32_t>(items);
+  set_length(memory, length);
   engine.launcher.launch({Kernel::scatter_reals,
                           {Buffer::control_number, Buffer::control_place, written.buffer},
                           {1, 0, 1},
                           COUNT_ZERO,
                           COUNT_LENGTH,
-                          items});
+                          length});
 }
 
 void Worlds::Controls::set(World::Implementation &engine, std::span<const uint32_t> worlds,
@@ -316,14 +327,19 @@ void Worlds::Controls::set(World::Implementation &engine, std::span<const uint32
 {
   if (values.empty()) return;
   find_targets_anew(engine);
-  for_each_world(worlds, [&](size_t i) { check(worlds[i], &values[i * count()]); });
+  numbers_.resize(values.size());
+  for_each_world(worlds, [&](size_t i) {
+    find_numbers(&values[i * count()], &numbers_[i * count()]);
+    check(worlds[i], &values[i * count()], &numbers_[i * count()]);
+  });
   engine.settle();
   engine.buffers.make_ready(engine.sizes());
   const bool is_of_all = worlds.size() * count() == targets_.size() && are_distinct(worlds);
   const std::vector<Written> of_some = is_of_all ? std::vector<Written>{} : written_of(worlds);
   const std::vector<Written> &all = is_of_all ? written_of_all() : of_some;
+  written_.resize(targets_.size());
   for (const Written &written : all) make_room(engine.memory, written);
-  for_each_world(worlds, [&](size_t i) { keep(worlds[i], &values[i * count()]); });
+  for_each_world(worlds, [&](size_t i) { keep(worlds[i], &numbers_[i * count()]); });
   ++engine.state;
   scene_is_behind_ = true;
   for (const Written &written : all) write(engine, written);

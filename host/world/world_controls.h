@@ -44,16 +44,17 @@ private:
     float value;
     float damping; /* of an axis with a force */
     float rest;    /* of the speed to which the damper pulls: what the other of force and target velocity makes */
+    float surely;  /* numbers up to this size can be held, and perhaps some beyond it */
   };
   /* Numbers of one buffer. */
   struct Written {
     Buffer buffer;
     std::vector<uint32_t> targets, places;
   };
-  float number_of(size_t control, float value) const;
-  /* values: of the controls of that world. */
-  void check(uint32_t world, const float *values) const;
-  void keep(uint32_t world, const float *values);
+  /* values: of the controls of that world; numbers: those of its axes for which they stand. */
+  void find_numbers(const float *values, float *numbers) const;
+  void check(uint32_t world, const float *values, const float *numbers) const;
+  void keep(uint32_t world, const float *numbers);
   bool writes(size_t control) const;
   float number_written(size_t target) const;
   std::vector<Written> written_of(std::span<const uint32_t> worlds) const;
@@ -69,6 +70,8 @@ private:
   std::vector<size_t> partner_;     /* of each control: the other one of the speed to which the damper pulls, or none */
   std::vector<Actuator> actuators_; /* of each control; none if axes were chosen */
   std::vector<Target> targets_;     /* [world, control] */
+  std::vector<float> numbers_;      /* of the call that goes on; kept for the next one */
+  std::vector<float> written_;      /* of each target: what its row has */
   std::vector<Written> of_all_;     /* made when it is first asked for */
   bool has_places_of_all_ = false;  /* whether control_place has those of the only list of of_all_ */
   uint64_t joints_number_ = 0;      /* World::Implementation::joints_number when the targets were found */
