@@ -7,7 +7,8 @@
 
 /* SHAPE_OTHER: body_convex names the shape, and body_shape_pose places it in the body. SHAPE_TRIANGLE: a triangle of a
  * mesh, which exists in the narrowphase alone. The other codes are those of ShapeType in
- * host/include/tandem/shapes.h. */
+ * host/include/tandem/shapes.h. A child of a compound has SHAPE_CAPSULE if it is a capsule or a ball, and then the size
+ * of one; else SHAPE_OTHER. */
 enum {
   SHAPE_SPHERE = 0,
   SHAPE_BOX = 1,

@@ -3,9 +3,10 @@
  *   manifold_points    point 0 of all pairs | point 1 | point 2 | point 3
  *   constraint_points  point 0: x | y | z | separation | mass | point 1: x | y | z | separation | mass | ...
  *
- * A plane has `stride` rows, one for each pair that there is room for. In a scene where only balls touch, a pair has
- * one point, and there are no planes of the others: they would be half of what a pair takes. A point that has no
- * plane, or that its pair does not use, reads as zeros, so the bits are the same with and without the planes.
+ * A plane has `stride` rows, one for each pair that there is room for. In a scene where only balls touch, and none
+ * is part of a compound, a pair has one point, and there are no planes of the others: they would be half of what a pair
+ * takes. A point that has no plane, or that its pair does not use, reads as zeros, so the bits are the same with and
+ * without the planes.
  *
  * Constraints are read in order, pass after pass, so their points are planes of single numbers, which lanes load
  * without a transposition. The arm of b is not stored: it is the arm of a less the offset from a to b. */

@@ -105,7 +105,7 @@ Features convex_features(const Scene &scene)
   Features features = FEATURE_CONVEX;
   if (any_shape(scene, {ShapeType::hull})) features |= FEATURE_HULL;
   if (any_shape(scene, {ShapeType::capsule, ShapeType::cylinder})) features |= FEATURE_ROUND;
-  if (any_shape(scene, {ShapeType::mesh, ShapeType::compound})) features |= FEATURE_TREES;
+  if (any_shape(scene, {ShapeType::mesh, ShapeType::compound})) features |= with_needs(FEATURE_TREES);
   return features;
 }
 
@@ -176,7 +176,7 @@ Features list_features(const Scene &scene, Features features)
   return std::count_if(std::begin(pair_tests), std::end(pair_tests), counts) > 1 ? FEATURE_PAIR_KINDS : 0;
 }
 
-/* A ball touches a shape with a test of its own at one point. */
+/* A ball touches a shape with a test of its own at one point. Parts of a compound share manifolds (midphase/merge.h). */
 Features point_features(Features pairs)
 {
   constexpr Features of_balls =

@@ -71,6 +71,7 @@ TEST_CASE("parity on OpenCL: specialised pyramid") { require_same_state_on_pocl(
 TEST_CASE("parity on OpenCL: specialised spheres") { require_same_state_on_pocl(small_scenes()[4]); }
 TEST_CASE("parity on OpenCL: specialised mixed") { require_same_state_on_pocl(small_scenes()[5]); }
 TEST_CASE("parity on OpenCL: specialised trees") { require_same_state_on_pocl(few_trees()); }
+TEST_CASE("parity on OpenCL: specialised balls on compounds") { require_same_state_on_pocl(balls_on_compounds()); }
 TEST_CASE("parity on OpenCL: specialised shapes") { require_same_state_on_pocl(every_shape()); }
 TEST_CASE("parity on OpenCL: specialised convex-hulls") { require_same_state_on_pocl(small_scenes()[7]); }
 TEST_CASE("parity on OpenCL: specialised gjk-sampled")

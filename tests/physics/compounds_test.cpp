@@ -249,3 +249,24 @@ TEST_CASE("children of a compound that ceases to be continuous have the tests of
   run(before, 60);
   CHECK(before.statistics().contacts == 6);
 }
+
+/* The two balls share a manifold, of which both points count though only balls touch in this scene. */
+TEST_CASE("a ball lies still between two balls of a compound", "[physics]")
+{
+  Scene scene = empty_scene();
+  add_body(scene, BodyType::fixed,
+           compound_shape({child_of(sphere_shape(0.2f), {-0.05, 0, 0}), child_of(sphere_shape(0.2f), {0.05, 0, 0})}),
+           {0, 0, 0});
+  add_dynamic_body(scene, sphere_shape(1), {0.002, std::sqrt(1.2 * 1.2 - 0.05 * 0.05), 0});
+  Settings general;
+  general.specialise = false;
+  World world(scene), whole(scene, general);
+  for (int step = 0; step < 120; ++step) {
+    world.step();
+    whole.step();
+    REQUIRE(world.body_hash() == whole.body_hash());
+  }
+  CHECK(world.statistics().contacts == 2);
+  CHECK(std::abs(world.bodies()[1].position[0]) < 0.004);
+  CHECK(vector_of(world.bodies()[1].linear_velocity).norm() < 0.005);
+}
