@@ -176,7 +176,7 @@ Features list_features(const Scene &scene, Features features)
   return std::count_if(std::begin(pair_tests), std::end(pair_tests), counts) > 1 ? FEATURE_PAIR_KINDS : 0;
 }
 
-/* A ball touches a shape with a test of its own at one point. Parts of a compound share manifolds (midphase/merge.h). */
+/* A ball touches a shape with a test of its own at one point. Parts of compounds share manifolds (midphase/merge.h). */
 Features point_features(Features pairs)
 {
   constexpr Features of_balls =
