@@ -99,6 +99,23 @@ void stage_carried_rows(StagedUploads &uploads, Memory &memory, const StepBuffer
   uploads.add(Buffer::cached_b, awake_rows.indices_of(memory, Buffer::cached_b, pairs));
 }
 
+/* Manifolds of two bodies with several are known again by their normals, which a scene without trees does not keep.
+ * Those of a body that gets another shape are forgotten, so that a world in which this brings the first tree goes on as
+ * one that had trees before. */
+void stage_forgotten_normals(StagedUploads &uploads, Memory &memory, const BodyOrder &order,
+                             const std::vector<uint32_t> &reshaped)
+{
+  if (reshaped.empty() || memory.bytes(Buffer::cached_normal) == 0) return;
+  const std::set<uint32_t> slots(reshaped.begin(), reshaped.end());
+  std::vector<bool> is_reshaped; /* by index */
+  for (const uint32_t slot : order.all) is_reshaped.push_back(slots.contains(slot));
+  const auto starts = memory.read<uint32_t>(Buffer::cached_start, order.awake_count + size_t{1});
+  const auto others = memory.read<uint32_t>(Buffer::cached_b, starts.back());
+  for (uint32_t a = 0; a < order.awake_count; ++a)
+    for (uint32_t pair = starts[a]; pair < starts[a + 1]; ++pair)
+      if (is_reshaped[a] || is_reshaped[others[pair]]) uploads.add(Buffer::cached_normal, std::vector<float4>(1), pair);
+}
+
 /* What modules keep by body is 0 for a new one, also where another body lay before. */
 void stage_module_rows(StagedUploads &uploads, const std::vector<bool> &touched, size_t first, size_t count)
 {
@@ -423,6 +440,7 @@ void World::Implementation::lay_out_anew(const Arrival &arrival, const JointImpu
   StagedUploads uploads;
   stage_carried_rows(uploads, memory, buffers, {old_order, special.awake},
                      {order, static_cast<uint32_t>(order.size()) - sleepers.count()});
+  stage_forgotten_normals(uploads, memory, {old_order, special.awake}, arrival.restated);
   std::vector<uint32_t> order_before = arrival.inserts() && order_of_events.empty() ? old_order : order_of_events;
   LayoutBackup backup(*this);
   forget_kept(memory); /* their buffers get new sizes, and lose their contents, also where this fails later */
