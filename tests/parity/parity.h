@@ -1,7 +1,6 @@
 /* parity.h - small scenes and the lockstep comparison for all parity tests. */
 #pragma once
 
-#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -91,27 +90,19 @@ inline std::string describe(const Difference &difference)
          ": " + difference.note;
 }
 
-/* Sanitizers take ten times as long and see the same code in any order of items, so there the first backend is compared
- * with the last alone (tests/sanitizers/tests.cmake). */
-inline std::vector<std::string> backends_to_compare(const std::vector<std::string> &backends)
-{
-  if (!std::getenv("TANDEM_TEST_FEW_BACKENDS") || backends.size() < 3) return backends;
-  return {backends.front(), backends.back()};
-}
-
 /* Compares every kernel of every step. A run in which nothing was compared fails. */
 inline void require_parity(const Scene &scene, const std::vector<std::string> &backends, uint64_t steps,
                            const Settings &settings = {})
 {
   ComparisonRequest request;
   request.settings = settings;
-  request.backends = backends_to_compare(backends);
+  request.backends = backends;
   request.steps = steps;
   const Comparison comparison = compare_backends(scene, request);
   CAPTURE(scene.name, settings.solver, settings.broadphase, settings.batching);
   if (comparison.first_difference) FAIL(describe(*comparison.first_difference));
   CHECK(comparison.steps == steps);
-  CHECK(comparison.kernels_compared > 10 * steps * (request.backends.size() - 1));
+  CHECK(comparison.kernels_compared > 10 * steps * (backends.size() - 1));
 }
 
 inline void require_parity(const std::string &scene, const std::vector<std::string> &backends, uint64_t steps,

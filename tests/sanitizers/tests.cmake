@@ -14,7 +14,7 @@ endif()
 function(sanitizer_test name)
   tandem_test(NAME sanitizer.${name} LABEL sanitizer TIMEOUT 900
     ENVIRONMENT TANDEM_COMMAND=$<TARGET_FILE:tandem_command> OCL_ICD_VENDORS=/nonexistent
-      OPENCL_VENDOR_PATH=/nonexistent TANDEM_TEST_SHARE_OF_FAULTS=31 TANDEM_TEST_FEW_BACKENDS=1
+      OPENCL_VENDOR_PATH=/nonexistent TANDEM_TEST_SHARE_OF_FAULTS=31
     COMMAND ${launcher} ${ARGN})
   # which would ask for these drivers
   set_property(TEST sanitizer.${name} APPEND PROPERTY ENVIRONMENT_MODIFICATION CI=unset:)
