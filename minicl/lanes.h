@@ -233,13 +233,4 @@ SHARED void store_listed_row_if(mask m, float4 *to, uint_lanes i, vec4 value)
   else store_float4_if(m, to, i, value);
 }
 
-SHARED vec4 load_listed_row(const float4 *from, uint_lanes i)
-{
-  const item_index run{i.v[0]};
-  return all_of(i == uint_lanes(run)) ? load_float4(from, run) : load_float4(from, i);
-}
-SHARED uint_lanes load_listed_uint(const uint *from, uint_lanes i)
-{
-  const item_index run{i.v[0]};
-  return all_of(i == uint_lanes(run)) ? load_uint(from, run) : load_uint(from, i);
-}
+#include "minicl/lanes_of_trees.h"

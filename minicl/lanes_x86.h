@@ -136,41 +136,54 @@ SHARED quarters transpose(vec4 value)
 
 /* Consecutive records: whole registers hold consecutive records, which are dealt out to quarters. */
 #if TANDEM_LANES == 16
-SHARED quarters deal(__m512 a, __m512 b, __m512 c, __m512 d)
+SHARED __m512 fourths_in_memory(const float4 *from)
 {
-  const __m512 ab01 = _mm512_shuffle_f32x4(a, b, 0x44), ab23 = _mm512_shuffle_f32x4(a, b, 0xee);
-  const __m512 cd01 = _mm512_shuffle_f32x4(c, d, 0x44), cd23 = _mm512_shuffle_f32x4(c, d, 0xee);
-  return {_mm512_shuffle_f32x4(ab01, cd01, 0x88), _mm512_shuffle_f32x4(ab01, cd01, 0xdd),
-          _mm512_shuffle_f32x4(ab23, cd23, 0x88), _mm512_shuffle_f32x4(ab23, cd23, 0xdd)};
+  __m512 rows = _mm512_castps128_ps512(_mm_loadu_ps(&from->x));
+  rows = _mm512_insertf32x4(rows, _mm_loadu_ps(&from[4].x), 1);
+  rows = _mm512_insertf32x4(rows, _mm_loadu_ps(&from[8].x), 2);
+  return _mm512_insertf32x4(rows, _mm_loadu_ps(&from[12].x), 3);
 }
 SHARED quarters load_in_order(const float4 *from)
 {
-  return deal(_mm512_loadu_ps(&from->x), _mm512_loadu_ps(&from[4].x), _mm512_loadu_ps(&from[8].x),
-              _mm512_loadu_ps(&from[12].x));
+  return {fourths_in_memory(from), fourths_in_memory(from + 1), fourths_in_memory(from + 2),
+          fourths_in_memory(from + 3)};
 }
-/* Dealing is a transpose of 4 x 4 records, so it is its own inverse. */
+SHARED void store_fourths(float4 *to, __m512 rows)
+{
+  _mm_storeu_ps(&to->x, _mm512_castps512_ps128(rows));
+  _mm_storeu_ps(&to[4].x, _mm512_extractf32x4_ps(rows, 1));
+  _mm_storeu_ps(&to[8].x, _mm512_extractf32x4_ps(rows, 2));
+  _mm_storeu_ps(&to[12].x, _mm512_extractf32x4_ps(rows, 3));
+}
 SHARED void store_in_order(float4 *to, quarters q)
 {
-  const quarters whole = deal(q.a, q.b, q.c, q.d);
-  _mm512_storeu_ps(&to->x, whole.a);
-  _mm512_storeu_ps(&to[4].x, whole.b);
-  _mm512_storeu_ps(&to[8].x, whole.c);
-  _mm512_storeu_ps(&to[12].x, whole.d);
+  store_fourths(to, q.a);
+  store_fourths(to + 1, q.b);
+  store_fourths(to + 2, q.c);
+  store_fourths(to + 3, q.d);
 }
 #elif TANDEM_LANES == 8
+/* From memory, a half is inserted by the ports of loads and arithmetic; between registers, by the one that shuffles. */
+SHARED __m256 halves_in_memory(const float4 *low, const float4 *high)
+{
+  return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(&low->x)), _mm_loadu_ps(&high->x), 1);
+}
 SHARED quarters load_in_order(const float4 *from)
 {
-  const __m256 r01 = _mm256_loadu_ps(&from->x), r23 = _mm256_loadu_ps(&from[2].x);
-  const __m256 r45 = _mm256_loadu_ps(&from[4].x), r67 = _mm256_loadu_ps(&from[6].x);
-  return {_mm256_permute2f128_ps(r01, r45, 0x20), _mm256_permute2f128_ps(r01, r45, 0x31),
-          _mm256_permute2f128_ps(r23, r67, 0x20), _mm256_permute2f128_ps(r23, r67, 0x31)};
+  return {halves_in_memory(from, from + 4), halves_in_memory(from + 1, from + 5), halves_in_memory(from + 2, from + 6),
+          halves_in_memory(from + 3, from + 7)};
+}
+SHARED void store_halves(float4 *low, float4 *high, __m256 rows)
+{
+  _mm_storeu_ps(&low->x, _mm256_castps256_ps128(rows));
+  _mm_storeu_ps(&high->x, _mm256_extractf128_ps(rows, 1));
 }
 SHARED void store_in_order(float4 *to, quarters q)
 {
-  _mm256_storeu_ps(&to->x, _mm256_permute2f128_ps(q.a, q.b, 0x20));
-  _mm256_storeu_ps(&to[2].x, _mm256_permute2f128_ps(q.c, q.d, 0x20));
-  _mm256_storeu_ps(&to[4].x, _mm256_permute2f128_ps(q.a, q.b, 0x31));
-  _mm256_storeu_ps(&to[6].x, _mm256_permute2f128_ps(q.c, q.d, 0x31));
+  store_halves(to, to + 4, q.a);
+  store_halves(to + 1, to + 5, q.b);
+  store_halves(to + 2, to + 6, q.c);
+  store_halves(to + 3, to + 7, q.d);
 }
 #else
 SHARED quarters load_in_order(const float4 *from)

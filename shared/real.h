@@ -103,8 +103,6 @@ SHARED void store_float4_if(mask m, GLOBAL float4 *to, uint_lanes i, vec4 v)
   if (m) store_float4(to, i, v);
 }
 SHARED void store_listed_row_if(mask m, GLOBAL float4 *to, uint_lanes i, vec4 v) { store_float4_if(m, to, i, v); }
-SHARED vec4 load_listed_row(GLOBAL const float4 *from, uint_lanes i) { return load_float4(from, i); }
-SHARED uint_lanes load_listed_uint(GLOBAL const uint *from, uint_lanes i) { return load_uint(from, i); }
 SHARED void store_listed_uint_if(mask m, GLOBAL uint *to, uint_lanes i, uint_lanes value)
 {
   store_uint_if(m, to, i, value);

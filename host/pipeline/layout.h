@@ -20,13 +20,13 @@ struct Sizes {
   uint32_t joints = 0;
   uint32_t joint_axes = 0; /* the most of one joint */
   uint32_t couplings = 0;
-  uint32_t articulations = 0;
-  uint32_t links = 0;        /* of all articulations */
-  size_t path_entries = 0;   /* of all of these that have tables of paths */
-  uint32_t joined_pairs = 0; /* entries of their table */
-  uint32_t pairs = 0;        /* capacity */
-  uint32_t cells = 0;        /* capacity */
-  uint32_t candidates = 0;   /* capacity; 0 without the broadphase trees */
+  uint32_t articulations = 0; /* with room for those that are missing beside others: host/scene/tree_places.h */
+  uint32_t links = 0;         /* of all of these */
+  size_t path_entries = 0;    /* of all of these that have tables of paths */
+  uint32_t joined_pairs = 0;  /* entries of their table */
+  uint32_t pairs = 0;         /* capacity */
+  uint32_t cells = 0;         /* capacity */
+  uint32_t candidates = 0;    /* capacity; 0 without the broadphase trees */
   Features features = 0;
 };
 

@@ -45,22 +45,15 @@ LinkAxis link_axis_of(const Scene &scene, const JointAxis &axis, uint32_t body)
           axis_row[0]};
 }
 
-template <class Link> std::vector<TreePlace> places_of(const std::vector<std::vector<Link>> &trees)
-{
-  std::vector<uint32_t> lengths;
-  for (const std::vector<Link> &links : trees) lengths.push_back(static_cast<uint32_t>(links.size()));
-  return tree_places(lengths);
-}
-
 /* The tables of all trees but where their bodies are. */
 class LinkTables {
 public:
   LinkTables(const Scene &scene, const JointedLinks &links) : scene_(scene), places_(links.places)
   {
-    code_.resize(links.count);
-    freedom_.resize(links.count * PATH_WORDS);
-    row_.resize(links.count * LINK_ROWS);
-    range_.resize(links.count);
+    code_.resize(links.room.links);
+    freedom_.resize(size_t{links.room.links} * PATH_WORDS);
+    row_.resize(size_t{links.room.links} * LINK_ROWS);
+    range_.resize(links.room.links);
   }
 
   void add(uint32_t number, const std::vector<OrderedLink> &links)
@@ -208,6 +201,13 @@ uint32_t freedoms_of_table(const std::vector<OrderedLink> &tree)
   return freedoms <= TREE_FREEDOMS ? std::max(freedoms, 1u) : 0;
 }
 
+TreeShape shape_of(const std::vector<OrderedLink> &tree)
+{
+  TreeShape shape;
+  for (const OrderedLink &l : tree) shape.push_back(code_of_link(l));
+  return shape;
+}
+
 /* The freedoms of the longest path. */
 uint32_t longest_path(const std::vector<OrderedLink> &tree)
 {
@@ -227,11 +227,13 @@ JointedLinks links_of(const Scene &scene)
   links.body_of_joint.assign(scene.joints.size(), no_body);
   links.of_body.assign(scene.bodies.size(), no_link);
   links.bases.resize(scene.bodies.size());
+  std::vector<TreeShape> shapes;
   std::vector<uint32_t> entries; /* of the longest path of each tree; 0 of those without a table */
   for (const Articulation &articulation : scene.articulations) {
     links.trees.emplace_back();
     const std::vector<OrderedLink> tree = ordered_links_of(scene, articulation, scene.name);
     links.freedoms.push_back(freedoms_of_table(tree));
+    shapes.push_back(shape_of(tree));
     entries.push_back(links.freedoms.back() > 0 ? longest_path(tree) : 0);
     for (const OrderedLink &l : tree) {
       if (l.link.joint != ArticulationLink::none) {
@@ -242,10 +244,10 @@ JointedLinks links_of(const Scene &scene)
       }
       links.of_body[l.link.body] = static_cast<uint32_t>(links.trees.size() - 1);
       links.trees.back().push_back(l.link.body);
-      ++links.count;
     }
   }
-  links.places = places_of(links.trees);
+  links.places = tree_places(shapes);
+  links.room = room_of(links.places);
   links.paths = path_places(links.places, entries);
   return links;
 }
@@ -335,7 +337,7 @@ void stage_articulations(StagedUploads &uploads, const Scene &scene, const Joint
 void stage_bodies_of_links(StagedUploads &uploads, const JointedLinks &links, std::span<const uint32_t> index_of_body,
                            size_t room, const std::vector<BodyStatus> &status, uint32_t awake)
 {
-  std::vector<uint32_t> body(links.count), place, body_link;
+  std::vector<uint32_t> body(links.room.links), place, body_link;
   for (uint32_t index = 0; index < room; ++index) body_link.insert(body_link.end(), {index, INDEX_NONE, 0});
   for (uint32_t number = 0; number < links.trees.size(); ++number) {
     const std::vector<uint32_t> &tree = links.trees[number];
@@ -345,7 +347,7 @@ void stage_bodies_of_links(StagedUploads &uploads, const JointedLinks &links, st
     });
     const PathPlace &paths = links.paths.of_tree[number];
     place.insert(place.end(), {at.block, at.item, at.stride, is_out ? 0 : at.links, paths.block, paths.entries,
-                               links.freedoms[number]});
+                               links.freedoms[number], at.first});
     for (uint32_t k = 0; k < tree.size(); ++k) {
       const uint32_t index = index_of_body[tree[k]];
       body[at.row(1, k, 0)] = index;

@@ -19,16 +19,16 @@ namespace tandem {
 /* By joint of the scene: whether it is a coordinate of an articulation, so that it holds no bodies as others do. */
 std::vector<bool> articulated_joints(const Scene &scene);
 
-/* The links of all articulations, in the order of the tables. */
+/* The links of all articulations. */
 constexpr uint32_t no_link = 0xffffffffu;
 struct JointedLinks {
-  uint32_t count = 0;
   /* By joint of the scene: its articulation, or no_link; the number of its link in that, and the body of the link. */
   std::vector<uint32_t> of_joint, number_of_joint, body_of_joint;
   std::vector<std::vector<uint32_t>> trees; /* the bodies of each articulation */
   std::vector<uint32_t> of_body;            /* by body of the scene: its articulation, or no_link */
   std::vector<bool> bases;                  /* by body: whether a tree stands on it */
   std::vector<TreePlace> places;            /* by articulation */
+  TreeRoom room{};                          /* of the tables */
   std::vector<uint32_t> freedoms;           /* by articulation that has a table of paths; of others 0 */
   PathPlaces paths;                         /* shared/articulations/path.h */
 

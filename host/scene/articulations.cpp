@@ -112,9 +112,9 @@ struct Posed {
          nullptr, /* no table of paths */
          nullptr,
          nullptr,
+         place_beside(0u, 0u, 1u),
          0u,
          0u,
-         1u,
          uint(links),
          0u,
          0u,
@@ -123,7 +123,7 @@ struct Posed {
          uint(links)};
     for (uint k = 0; k < links; ++k) {
       const Quadruple &q = s.coordinates[k];
-      state[k * STATE_ROWS + STATE_JOINT_POSITION] = row(q[0], q[1], q[2], q[3]);
+      store_state(1, &t, k, STATE_JOINT_POSITION, make_vec4(q[0], q[1], q[2], q[3]));
     }
     root[ROOT_POSITION] = row_of(tables.is_free() ? s.root_position : tables.ground, 0);
     root[ROOT_POSITION + 1] = row(0, 0, 0, 0);
@@ -135,7 +135,7 @@ struct Posed {
   {
     for (uint k = 0; k < links.size(); ++k) {
       const auto [angular, linear] = numbers_of(links[k], numbers);
-      state[k * STATE_ROWS + state_row] = row_of(angular, 0);
+      store_state(1, &t, k, state_row, make_vec4(angular[0], angular[1], angular[2], 0));
       if (links[k].velocities == 6) root[root_row] = row_of(linear, 0);
     }
   }
@@ -259,14 +259,10 @@ std::vector<double> ArticulationTree::forward_dynamics(const ArticulationState &
   posed.set(tables_->links, forces, STATE_JOINT_FORCE, ROOT_LINEAR_FORCE);
   /* The inertial forces first, since the velocities that they belong to are those of the state. */
   load_inertial_forces(&posed.t, 1);
-  const std::vector<float4> work = posed.work;
+  std::vector<spatial_force> inertial;
+  for (uint k = 0; k < tables_->links.size(); ++k) inertial.push_back(load_force(&posed.t, k, WORK_FORCE));
   load_outer_forces(&posed.t, tables_->gravity, 1);
-  for (uint k = 0; k < tables_->links.size(); ++k) {
-    const float4 *inertial = &work[k * WORK_ROWS + WORK_FORCE];
-    const spatial_force f = {make_vec3(inertial[0].x, inertial[0].y, inertial[0].z),
-                             make_vec3(inertial[1].x, inertial[1].y, inertial[1].z)};
-    add_to_force(1, &posed.t, k, WORK_FORCE, f);
-  }
+  for (uint k = 0; k < tables_->links.size(); ++k) add_to_force(1, &posed.t, k, WORK_FORCE, inertial[k]);
   push_all_links(&posed.t);
   settle_tree(&posed.t);
   std::vector<double> accelerations(tables_->velocities);

@@ -51,12 +51,17 @@ std::array<double, 3> moments_of_link(const Scene &scene, const Body &body)
   return {1.0 / inverse[0], 1.0 / inverse[1], 1.0 / inverse[2]};
 }
 
+uint32_t code_of_link(const OrderedLink &l)
+{
+  const uint32_t parent = l.link.parent == ArticulationLink::none ? LINK_NO_PARENT : l.link.parent;
+  return parent | joint_code(l) << LINK_JOINT_SHIFT;
+}
+
 LinkRows rows_of_link(const Scene &scene, const OrderedLink &l)
 {
   const Body &body = scene.bodies[l.link.body];
-  const uint32_t parent = l.link.parent == ArticulationLink::none ? LINK_NO_PARENT : l.link.parent;
   LinkRows rows{};
-  rows.code = parent | joint_code(l) << LINK_JOINT_SHIFT;
+  rows.code = code_of_link(l);
   rows.freedom = {uint32_t(l.path & UINT32_MAX), uint32_t(l.path >> 32), l.path_entries, l.link.first_velocity};
   rows.numbers[LINK_FRAME_A] = row_of(l.position_a, l.armature);
   rows.numbers[LINK_FRAME_A_ORIENTATION] = row_of(rotation_of(l.orientation_a));

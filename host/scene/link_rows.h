@@ -21,6 +21,8 @@ struct LinkRows {
 /* About the principal axes, kg m^2. */
 std::array<double, 3> moments_of_link(const Scene &scene, const Body &body);
 
+/* Its joint and its parent. */
+uint32_t code_of_link(const OrderedLink &link);
 LinkRows rows_of_link(const Scene &scene, const OrderedLink &link);
 
 } // namespace tandem

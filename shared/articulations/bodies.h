@@ -19,8 +19,9 @@
 #define TREE_COLORS 64u
 #define TREE_COLOR_WORDS 4u
 /* Words of articulation_place: block, item, stride (tree.h), the number of links; of a tree that has a table of paths
- * where that of its block begins, in entries, the most entries of a link, and the freedoms of the tree; of others 0. */
-enum { PLACE_PATHS = 4, PLACE_FREEDOMS = 6, PLACE_WORDS };
+ * where that of its block begins, in entries, the most entries of a link, and the freedoms of the tree; of others 0;
+ * and the first of the places of trees that its block takes. */
+enum { PLACE_PATHS = 4, PLACE_FREEDOMS = 6, PLACE_FIRST, PLACE_WORDS };
 
 SHARED articulation articulation_at(read_links links, write_link_states states, uint_lanes number)
 {
@@ -36,22 +37,23 @@ SHARED articulation articulation_at(read_links links, write_link_states states, 
   t.freedom = links.freedom;
   t.path = states.path;
   t.change = states.change;
-  t.block = load_uint(links.place, place);
-  t.item = load_uint(links.place, place + 1u);
-  t.stride = load_uint(links.place, place + 2u);
+  uint_lanes block = load_uint(links.place, place), item = load_uint(links.place, place + 1u);
+  t.place = place_beside(block, item, load_uint(links.place, place + 2u));
+  t.block = of_shape(&t.place, block);
+  t.first = of_shape(&t.place, load_uint(links.place, place + (uint)PLACE_FIRST));
   t.links = load_uint(links.place, place + 3u);
-  t.path_block = load_uint(links.place, place + (uint)PLACE_PATHS);
-  t.path_entries = load_uint(links.place, place + (uint)PLACE_PATHS + 1u);
-  t.freedoms = load_uint(links.place, place + (uint)PLACE_FREEDOMS);
+  t.path_block = of_shape(&t.place, load_uint(links.place, place + (uint)PLACE_PATHS));
+  t.path_entries = of_shape(&t.place, load_uint(links.place, place + (uint)PLACE_PATHS + 1u));
+  t.freedoms = of_shape(&t.place, load_uint(links.place, place + (uint)PLACE_FREEDOMS));
   t.number = number;
   t.most_links = 0u;
   while (any_of((uint_lanes)t.most_links < t.links)) ++t.most_links;
   return t;
 }
 
-SHARED uint_lanes body_of_link(read_links links, const articulation *t, uint_lanes k)
+SHARED uint_lanes body_of_link(read_links links, const articulation *t, shape_uint k)
 {
-  return load_listed_uint(links.body, tree_row(t, 1u, k, 0u));
+  return load_uint_of_row(links.body, tree_row(t, 1u, k, 0u));
 }
 
 /* Whether a contact has pushed a link in this substep: beside the force on a free root. */

@@ -17,7 +17,7 @@
 /* The axis of a joint; kind JOINT_AXIS_X for angles, too: they count on beyond half a turn. */
 SHARED joint_axis load_tree_axis(const articulation *t, tree_link l)
 {
-  vec4 range = load_listed_row(t->range, tree_row(t, 1u, l.k, 0u)), drive = load_link(t, l.k, (uint)LINK_AXIS),
+  vec4 range = load_row(t->range, tree_row(t, 1u, l.k, 0u)), drive = load_link(t, l.k, (uint)LINK_AXIS),
        limit = load_link(t, l.k, (uint)LINK_AXIS + 1u);
   joint_axis a = {(uint_lanes)(uint)JOINT_AXIS_X,
                   range.x,

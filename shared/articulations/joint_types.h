@@ -16,6 +16,10 @@ enum { TREE_JOINT_FIXED, TREE_JOINT_HINGE, TREE_JOINT_SLIDER, TREE_JOINT_BALL, T
 #define LINK_JOINT_SHIFT 24u
 #define LINK_NO_PARENT 0xffffffu
 
+/* So many trees of one shape lie beside each other, which are the work-items of a warp; others lie alone. A table has
+ * room for all of them even if the last ones are missing: host/scene/tree_places.h. */
+#define TREES_BESIDE 32u
+
 /* The records of a link, in rows of four floats. */
 enum {
   LINK_FRAME_A,             /* position of frame a from the parent's centre, in the parent's axes; armature */

@@ -74,7 +74,7 @@ SHARED double_float3 root_position(const articulation *t)
   return p;
 }
 /* The centre of a link. */
-SHARED double_float3 link_position(const articulation *t, uint_lanes k)
+SHARED double_float3 link_position(const articulation *t, shape_uint k)
 {
   return moved_position(root_position(t), xyz(load_work(t, k, (uint)WORK_OFFSET)));
 }

@@ -23,29 +23,29 @@
 
 #include "shared/articulations/respond.h"
 
-SHARED uint_lanes load_path_word(const articulation *t, uint_lanes k, uint word)
+SHARED shape_uint load_path_word(const articulation *t, shape_uint k, uint word)
 {
-  return load_listed_uint(t->freedom, tree_row(t, (uint)PATH_WORDS, k, word));
+  return load_of_shape(t->freedom, tree_row(t, (uint)PATH_WORDS, k, word));
 }
 
-SHARED uint_lanes path_row(const articulation *t, uint_lanes k, uint_lanes entry)
+SHARED row_number path_row(const articulation *t, shape_uint k, shape_uint entry)
 {
-  return t->path_block * PATH_ENTRY_ROWS + t->item + (k * t->path_entries + entry) * PATH_ENTRY_ROWS * t->stride;
+  return row_in(&t->place, t->path_block, PATH_ENTRY_ROWS, k, t->path_entries * PATH_ENTRY_ROWS,
+                entry * PATH_ENTRY_ROWS);
 }
 
-/* What is not wanted is read where there is something. */
-SHARED spatial_motion load_path_motion_if(mask wanted, const articulation *t, uint_lanes k, uint_lanes entry)
+SHARED spatial_motion load_path_motion_if(mask wanted, const articulation *t, shape_uint k, shape_uint entry)
 {
-  uint_lanes row = choose(wanted, path_row(t, k, entry), (uint_lanes)0u),
-             next = row + choose(wanted, t->stride, (uint_lanes)1u);
-  spatial_motion m = {xyz(load_listed_row(t->path, row)), xyz(load_listed_row(t->path, next))};
+  row_number row = path_row(t, k, entry), next = row_beyond(&t->place, row);
+  spatial_motion m = {xyz(load_row(t->path, wanted_row(wanted, row))),
+                      xyz(load_row(t->path, wanted_row(wanted, next)))};
   return m;
 }
-SHARED void store_path_motion_if(mask wanted, const articulation *t, uint_lanes k, uint_lanes entry, spatial_motion m)
+SHARED void store_path_motion_if(mask wanted, const articulation *t, shape_uint k, shape_uint entry, spatial_motion m)
 {
-  uint_lanes row = path_row(t, k, entry);
-  store_listed_row_if(wanted, t->path, row, extend(m.angular, R(0.0)));
-  store_listed_row_if(wanted, t->path, row + t->stride, extend(m.linear, R(0.0)));
+  row_number row = path_row(t, k, entry);
+  store_row_if(wanted, t->path, row, extend(m.angular, R(0.0)));
+  store_row_if(wanted, t->path, row_beyond(&t->place, row), extend(m.linear, R(0.0)));
 }
 
 /* The root of a positive number; 0 of others. */
@@ -154,23 +154,23 @@ SHARED spatial_motion motion_of_follower(const following_joint *f, spatial_motio
 #define PATH_CHUNK 4u
 
 /* The rows of the parent as the link follows it. */
-SHARED void follow_path_of_parent_if(mask wanted, const articulation *t, const following_joint *f, uint_lanes rows)
+SHARED void follow_path_of_parent_if(mask wanted, const articulation *t, const following_joint *f, shape_uint rows)
 {
   tree_link l = f->link;
   for (uint first = 0u; any_of(wanted & ((uint_lanes)first < rows)); first += PATH_CHUNK) {
     spatial_motion row[PATH_CHUNK];
     for (uint n = 0u; n < PATH_CHUNK; ++n) {
-      uint_lanes entry = (uint_lanes)(first + n);
+      shape_uint entry = first + n;
       row[n] = load_path_motion_if(wanted & (entry < rows), t, l.parent, entry);
     }
     for (uint n = 0u; n < PATH_CHUNK; ++n) {
-      uint_lanes entry = (uint_lanes)(first + n);
+      shape_uint entry = first + n;
       store_path_motion_if(wanted & (entry < rows), t, l.k, entry, motion_of_follower(f, row[n]));
     }
   }
 }
 
-SHARED void begin_path_by_single_if(mask wanted, const articulation *t, const following_joint *f, uint_lanes rows)
+SHARED void begin_path_by_single_if(mask wanted, const articulation *t, const following_joint *f, shape_uint rows)
 {
   if (!any_of(wanted)) return;
   spatial_motion axis = motion_at(axis_motion(f->link, f->joint), f->joint.to_center);
@@ -179,7 +179,7 @@ SHARED void begin_path_by_single_if(mask wanted, const articulation *t, const fo
   store_path_motion_if(wanted, t, f->link.k, rows, m);
 }
 
-SHARED void begin_path_by_ball_if(mask wanted, const articulation *t, const following_joint *f, uint_lanes rows)
+SHARED void begin_path_by_ball_if(mask wanted, const articulation *t, const following_joint *f, shape_uint rows)
 {
   if (!any_of(wanted)) return;
   lower_triangle unit = cholesky_of(f->ball.inverse);
@@ -196,8 +196,8 @@ SHARED void begin_path_by_root_if(mask wanted, const articulation *t, tree_link 
   for (uint n = 0u; n < 3u; ++n) {
     spatial_motion along = {row_of_matrix(unit.turned, n), column_of(unit.linear, n)};
     spatial_motion about = {column_of(unit.angular, n), zero3()};
-    store_path_motion_if(wanted, t, l.k, (uint_lanes)n, along);
-    store_path_motion_if(wanted, t, l.k, (uint_lanes)(3u + n), about);
+    store_path_motion_if(wanted, t, l.k, n, along);
+    store_path_motion_if(wanted, t, l.k, 3u + n, about);
   }
 }
 
@@ -206,10 +206,10 @@ CALLED void prepare_paths_if(mask wanted, const articulation *tree)
   articulation own = *tree;
   const articulation *t = &own;
   for (uint k = 0u; k < t->most_links; ++k) {
-    tree_link l = tree_link_of(t, (uint_lanes)k);
+    tree_link l = tree_link_of(t, k);
     l.exists = l.exists & wanted;
     following_joint f = load_following_joint(t, l);
-    uint_lanes rows = load_path_word(t, l.k, (uint)PATH_FIRST_ENTRY);
+    shape_uint rows = load_path_word(t, l.k, (uint)PATH_FIRST_ENTRY);
     follow_path_of_parent_if(l.exists & !l.is_root, t, &f, rows);
     begin_path_by_single_if(l.exists & has_one_freedom(l), t, &f, rows);
     begin_path_by_ball_if(l.exists & l.is_ball, t, &f, rows);
@@ -260,21 +260,21 @@ SHARED spatial_motion next_motion_if(mask wanted, const articulation *t, path_wa
 }
 
 /* z in memory: those of trees that lie beside each other lie beside each other. */
-SHARED uint_lanes change_row(const articulation *t, uint_lanes freedom)
+SHARED row_number change_row(const articulation *t, shape_uint freedom)
 {
-  return (t->number - t->item) * TREE_FREEDOMS + t->item + freedom * t->stride;
+  return row_in(&t->place, t->first, TREE_FREEDOMS, freedom, 1u, 0u);
 }
-SHARED real load_change_if(mask wanted, const articulation *t, uint_lanes freedom)
+SHARED real load_change_if(mask wanted, const articulation *t, shape_uint freedom)
 {
-  return load_real(t->change, choose(wanted, change_row(t, freedom), (uint_lanes)0u));
+  return load_real_of_row(t->change, wanted_row(wanted, change_row(t, freedom)));
 }
-SHARED vec3 load_three_changes_if(mask wanted, const articulation *t, uint_lanes first)
+SHARED vec3 load_three_changes_if(mask wanted, const articulation *t, shape_uint first)
 {
   return make_vec3(load_change_if(wanted, t, first), load_change_if(wanted, t, first + 1u),
                    load_change_if(wanted, t, first + 2u));
 }
 
-SHARED spatial_force pending_of_freedoms(const articulation *t, tree_link l, uint_lanes first)
+SHARED spatial_force pending_of_freedoms(const articulation *t, tree_link l, shape_uint first)
 {
   spatial_force pending = no_force();
   mask one = l.exists & has_one_freedom(l), ball = l.exists & l.is_ball, free = l.exists & l.is_free;
@@ -303,7 +303,7 @@ CALLED void settle_if_pending(mask wanted, const articulation *tree)
   const articulation *t = &own;
   mask is_pending = wanted & !wanted;
   for (uint k = 0u; k < t->most_links; ++k) {
-    spatial_force pending = load_pending(t, tree_link_of(t, (uint_lanes)k).k);
+    spatial_force pending = load_pending(t, tree_link_of(t, k).k);
     is_pending = is_pending | is_nonzero(pending.moment) | is_nonzero(pending.force);
   }
   is_pending = is_pending & wanted;
@@ -316,9 +316,9 @@ CALLED void leave_pending_if(mask wanted, const articulation *tree, const tree_f
   articulation own = *tree;
   const articulation *t = &own;
   for (uint d = 0u; d < z->count; ++d)
-    store_listed_real_if(wanted & ((uint_lanes)d < t->freedoms), t->change, change_row(t, (uint_lanes)d), z->change[d]);
+    store_real_of_row_if(wanted & ((uint_lanes)d < t->freedoms), t->change, change_row(t, d), z->change[d]);
   for (uint k = 0u; k < t->most_links; ++k) {
-    tree_link l = tree_link_of(t, (uint_lanes)k);
+    tree_link l = tree_link_of(t, k);
     l.exists = l.exists & wanted;
     spatial_force pending = pending_of_freedoms(t, l, load_path_word(t, l.k, (uint)PATH_FIRST_FREEDOM));
     store_force(l.exists, t, l.k, (uint)WORK_PENDING, pending);

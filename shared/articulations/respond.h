@@ -94,7 +94,7 @@ SHARED spatial_force pending_share(tree_link l, joint_share s, spatial_force at_
   return choose_force(l.is_free, at_center, of_joint);
 }
 
-SHARED spatial_force load_pending(const articulation *t, uint_lanes k) { return load_force(t, k, (uint)WORK_PENDING); }
+SHARED spatial_force load_pending(const articulation *t, shape_uint k) { return load_force(t, k, (uint)WORK_PENDING); }
 
 /* The change of a free root, all of whose impulses are pending. */
 SHARED spatial_motion free_root_change(const articulation *t, tree_link l)
@@ -142,11 +142,11 @@ SHARED void push_link(const articulation *t, uint_lanes k, spatial_force impulse
 /* Notes at each link between k and the root the next one on the way to k. */
 SHARED void note_path(mask wanted, const articulation *t, uint_lanes k)
 {
-  store_uint_if(wanted, t->next, tree_row(t, 1u, k, 0u), k);
+  store_uint_of_row_if(wanted, t->next, tree_row(t, 1u, k, 0u), k);
   while (any_of(wanted)) {
     tree_link l = tree_link_of(t, k);
     wanted = wanted & !l.is_root;
-    store_uint_if(wanted, t->next, tree_row(t, 1u, l.parent, 0u), k);
+    store_uint_of_row_if(wanted, t->next, tree_row(t, 1u, l.parent, 0u), k);
     k = choose(wanted, l.parent, k);
   }
 }
@@ -163,7 +163,7 @@ CALLED void find_pending_change(const articulation *tree, uint_lanes k, spatial_
     tree_link l = tree_link_of(t, at);
     vec3 of_joint;
     m = choose_motion(wanted, link_change(t, l, m, &of_joint), m);
-    uint_lanes following = load_uint(t->next, tree_row(t, 1u, l.k, 0u));
+    uint_lanes following = load_uint_of_row(t->next, tree_row(t, 1u, l.k, 0u));
     wanted = wanted & (following != at);
     at = choose(wanted, following, at);
   }

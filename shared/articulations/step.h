@@ -59,7 +59,7 @@ SHARED void accelerate_articulations_item(GLOBAL const Parameters *parameters, r
                                           GLOBAL float4 *solver_velocity, uint has_forces, item_index i)
 {
   articulation t = articulation_at(links, states, (uint_lanes)i);
-  vec3 gravity = gravity_at(parameters, body_gravity, body_of_link(links, &t, (uint_lanes)0u));
+  vec3 gravity = gravity_at(parameters, body_gravity, body_of_link(links, &t, 0u));
   for (uint k = 0; k < t.most_links; ++k)
     load_body_force(links, body_mass, solver_force, &t, tree_link_of(&t, k), gravity, has_forces);
   accelerate_tree(&t, gravity, parameters->substep);
@@ -106,7 +106,7 @@ SHARED void move_articulations_item(GLOBAL const Parameters *parameters, read_li
 {
   articulation t = articulation_at(links, states, (uint_lanes)i);
   move_tree_freely(&t, parameters->substep);
-  vec3 gravity = gravity_at(parameters, bodies.gravity, body_of_link(links, &t, (uint_lanes)0u));
+  vec3 gravity = gravity_at(parameters, bodies.gravity, body_of_link(links, &t, 0u));
   return_to_parabola_if(tree_falls_freely(links, body_mass, body_falls, &t), &t, gravity, parameters->substep);
   note_pushed_if(has_links(&t), &t, R(0.0));
   store_uint(states.colors, TREE_COLOR_WORDS * (uint_lanes)i, (uint_lanes)0u); /* its paths are another's: path.h */

@@ -19,7 +19,7 @@
 #include "shared/articulations/respond.h"
 
 /* An impulse on a link at which the sweep is, or on one beyond which it is. */
-SHARED void push_on_way_if(mask wanted, const articulation *t, uint_lanes k, spatial_force impulse)
+SHARED void push_on_way_if(mask wanted, const articulation *t, shape_uint k, spatial_force impulse)
 {
   symmetric6 inverse = load_symmetric6(t, k);
   spatial_motion change = add_motions(load_motion(t, k, (uint)WORK_CHANGE), inverse_times(&inverse, impulse));
@@ -64,21 +64,21 @@ SHARED void leave_link_if(mask wanted, const articulation *t, tree_link l)
 }
 
 /* Leaves links from `at` on towards the root until the sweep is at `next`. */
-SHARED void return_to_link_if(mask wanted, const articulation *t, uint_lanes at, uint_lanes next)
+SHARED void return_to_link_if(mask wanted, const articulation *t, shape_uint at, shape_uint next)
 {
   for (mask beyond = wanted & (at != next); any_of(beyond); beyond = beyond & (at != next)) {
     tree_link l = tree_link_of(t, at);
     leave_link_if(beyond, t, l);
-    at = choose(beyond, l.parent, at);
+    at = l.parent;
   }
 }
 
 /* Link k, from link k - 1. */
 SHARED tree_link go_to_link_if(mask wanted, const articulation *t, uint k)
 {
-  tree_link l = tree_link_of(t, (uint_lanes)k);
+  tree_link l = tree_link_of(t, k);
   l.exists = l.exists & wanted;
-  if (k > 0u) return_to_link_if(l.exists, t, (uint_lanes)(k - 1u), l.parent);
+  if (k > 0u) return_to_link_if(l.exists, t, k - 1u, l.parent);
   return l;
 }
 
@@ -86,8 +86,8 @@ SHARED tree_link go_to_link_if(mask wanted, const articulation *t, uint k)
 SHARED void end_sweep_if(mask wanted, const articulation *t)
 {
   wanted = wanted & has_links(t);
-  return_to_link_if(wanted, t, choose(wanted, t->links - 1u, (uint_lanes)0u), (uint_lanes)0u);
-  leave_link_if(wanted, t, tree_link_of(t, (uint_lanes)0u));
+  return_to_link_if(wanted, t, last_link_of(&t->place, t->links, t->most_links), 0u);
+  leave_link_if(wanted, t, tree_link_of(t, 0u));
 }
 
 #endif

@@ -20,6 +20,7 @@
 #define TANDEM_SHARED_ARTICULATIONS_TREE_H
 
 #include "shared/articulations/joint_types.h"
+#include "shared/articulations/place.h"
 #include "shared/articulations/spatial.h"
 
 typedef struct {
@@ -33,8 +34,10 @@ typedef struct {
   GLOBAL const uint *freedom; /* PATH_WORDS a link */
   GLOBAL float4 *path;        /* path_entries a link, PATH_ENTRY_ROWS each: path.h */
   GLOBAL memory_real *change; /* TREE_FREEDOMS a tree: path.h */
-  uint_lanes block, item, stride, links;
-  uint_lanes path_block, path_entries, freedoms; /* of a tree that has a table of paths; else 0 */
+  tree_place place;
+  shape_uint block, first; /* the trees beside each other: their first link in the tables, and their first place */
+  uint_lanes links;
+  shape_uint path_block, path_entries, freedoms; /* of a tree that has a table of paths; else 0 */
   uint_lanes number;                             /* of the tree */
   uint most_links;                               /* of any lane */
 } articulation;
@@ -44,26 +47,26 @@ SHARED mask has_links(const articulation *t) { return t->links > 0u; }
 
 /* A link of which the code is known. */
 typedef struct {
-  uint_lanes k, parent;
+  shape_uint k, parent;
   mask exists, is_root;
   mask is_hinge, is_slider, is_ball, is_free;
 } tree_link;
 
-SHARED uint_lanes tree_row(const articulation *t, uint rows, uint_lanes k, uint row)
+SHARED row_number tree_row(const articulation *t, uint rows, shape_uint k, uint row)
 {
-  return t->block * rows + t->item + (k * rows + row) * t->stride;
+  return row_in(&t->place, t->block, rows, k, rows, row);
 }
 
 /* The link k; a tree of another lane may be longer than this one, which then has nothing to do. */
-SHARED tree_link tree_link_of(const articulation *t, uint_lanes k)
+SHARED tree_link tree_link_of(const articulation *t, shape_uint k)
 {
   tree_link l;
   l.exists = k < t->links;
-  l.k = choose(l.exists, k, (uint_lanes)0u);
-  uint_lanes code = load_listed_uint(t->code, tree_row(t, 1u, l.k, 0u)), joint = code >> LINK_JOINT_SHIFT;
-  uint_lanes parent = code & LINK_NO_PARENT;
+  l.k = link_or_root(&t->place, l.exists, k);
+  shape_uint code = load_of_shape(t->code, tree_row(t, 1u, l.k, 0u));
+  shape_uint joint = code >> (uint)LINK_JOINT_SHIFT, parent = code & (uint)LINK_NO_PARENT;
   l.is_root = parent == (uint_lanes)LINK_NO_PARENT;
-  l.parent = choose(l.is_root, (uint_lanes)0u, parent);
+  l.parent = zero_if_equal(parent, (uint)LINK_NO_PARENT);
   l.is_hinge = joint == (uint_lanes)(uint)TREE_JOINT_HINGE;
   l.is_slider = joint == (uint_lanes)(uint)TREE_JOINT_SLIDER;
   l.is_ball = joint == (uint_lanes)(uint)TREE_JOINT_BALL;
@@ -72,17 +75,17 @@ SHARED tree_link tree_link_of(const articulation *t, uint_lanes k)
 }
 SHARED mask has_one_freedom(tree_link l) { return l.is_hinge | l.is_slider; }
 
-SHARED vec4 load_link(const articulation *t, uint_lanes k, uint row)
+SHARED vec4 load_link(const articulation *t, shape_uint k, uint row)
 {
-  return load_listed_row(t->link, tree_row(t, (uint)LINK_ROWS, k, row));
+  return load_row(t->link, tree_row(t, (uint)LINK_ROWS, k, row));
 }
-SHARED vec4 load_state(const articulation *t, uint_lanes k, uint row)
+SHARED vec4 load_state(const articulation *t, shape_uint k, uint row)
 {
-  return load_listed_row(t->state, tree_row(t, (uint)STATE_ROWS, k, row));
+  return load_row(t->state, tree_row(t, (uint)STATE_ROWS, k, row));
 }
-SHARED void store_state(mask m, const articulation *t, uint_lanes k, uint row, vec4 value)
+SHARED void store_state(mask m, const articulation *t, shape_uint k, uint row, vec4 value)
 {
-  store_listed_row_if(m, t->state, tree_row(t, (uint)STATE_ROWS, k, row), value);
+  store_row_if(m, t->state, tree_row(t, (uint)STATE_ROWS, k, row), value);
 }
 SHARED vec4 load_root(const articulation *t, uint row)
 {
@@ -92,48 +95,48 @@ SHARED void store_root(mask m, const articulation *t, uint row, vec4 value)
 {
   store_float4_if(m, t->root, t->number * (uint)ROOT_ROWS + row, value);
 }
-SHARED vec4 load_work(const articulation *t, uint_lanes k, uint row)
+SHARED vec4 load_work(const articulation *t, shape_uint k, uint row)
 {
-  return load_listed_row(t->work, tree_row(t, (uint)WORK_ROWS, k, row));
+  return load_row(t->work, tree_row(t, (uint)WORK_ROWS, k, row));
 }
-SHARED void store_work(mask m, const articulation *t, uint_lanes k, uint row, vec4 value)
+SHARED void store_work(mask m, const articulation *t, shape_uint k, uint row, vec4 value)
 {
-  store_listed_row_if(m, t->work, tree_row(t, (uint)WORK_ROWS, k, row), value);
+  store_row_if(m, t->work, tree_row(t, (uint)WORK_ROWS, k, row), value);
 }
 
 /* Two rows as a motion, or as a force. */
-SHARED spatial_motion load_motion(const articulation *t, uint_lanes k, uint row)
+SHARED spatial_motion load_motion(const articulation *t, shape_uint k, uint row)
 {
   spatial_motion m = {xyz(load_work(t, k, row)), xyz(load_work(t, k, row + 1u))};
   return m;
 }
-SHARED void store_motion(mask wanted, const articulation *t, uint_lanes k, uint row, spatial_motion m)
+SHARED void store_motion(mask wanted, const articulation *t, shape_uint k, uint row, spatial_motion m)
 {
   store_work(wanted, t, k, row, extend(m.angular, R(0.0)));
   store_work(wanted, t, k, row + 1u, extend(m.linear, R(0.0)));
 }
-SHARED spatial_force load_force(const articulation *t, uint_lanes k, uint row)
+SHARED spatial_force load_force(const articulation *t, shape_uint k, uint row)
 {
   spatial_force f = {xyz(load_work(t, k, row)), xyz(load_work(t, k, row + 1u))};
   return f;
 }
-SHARED void store_force(mask wanted, const articulation *t, uint_lanes k, uint row, spatial_force f)
+SHARED void store_force(mask wanted, const articulation *t, shape_uint k, uint row, spatial_force f)
 {
   store_work(wanted, t, k, row, extend(f.moment, R(0.0)));
   store_work(wanted, t, k, row + 1u, extend(f.force, R(0.0)));
 }
-SHARED void add_to_force(mask wanted, const articulation *t, uint_lanes k, uint row, spatial_force f)
+SHARED void add_to_force(mask wanted, const articulation *t, shape_uint k, uint row, spatial_force f)
 {
   store_force(wanted, t, k, row, add_forces(load_force(t, k, row), f));
 }
 
-SHARED symmetric6 load_symmetric6(const articulation *t, uint_lanes k)
+SHARED symmetric6 load_symmetric6(const articulation *t, shape_uint k)
 {
   packed_symmetric6 p;
   for (uint row = 0; row < 6u; ++row) p.row[row] = load_work(t, k, (uint)WORK_INERTIA + row);
   return unpacked6(p);
 }
-SHARED void store_symmetric6(mask wanted, const articulation *t, uint_lanes k, symmetric6 s)
+SHARED void store_symmetric6(mask wanted, const articulation *t, shape_uint k, symmetric6 s)
 {
   packed_symmetric6 p = packed6(s);
   for (uint row = 0; row < 6u; ++row) store_work(wanted, t, k, (uint)WORK_INERTIA + row, p.row[row]);
