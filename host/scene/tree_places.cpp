@@ -12,7 +12,7 @@
 namespace tandem {
 namespace {
 
-constexpr size_t fewest_beside = 8;                           /* lanes of trees; fewer would share no instructions */
+constexpr size_t fewest_beside = 8;                     /* lanes of trees; fewer would share no instructions */
 constexpr uint64_t most_links = UINT32_MAX / WORK_ROWS; /* the rows of link_work have indices below 2^32 */
 
 size_t equal_ones(std::span<const TreeShape> shapes)
