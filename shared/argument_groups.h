@@ -540,6 +540,13 @@ typedef struct {
   BUFFER(articulation_ground, float4, ground)                                                                          \
   BUFFER(body_link, uint, of_body)
 
+/* Couplings of two joints of one tree. */
+#define GROUP_tree_couplings(BUFFER)                                                                                   \
+  BUFFER(tree_coupling, uint, of_tree)                                                                                 \
+  BUFFER(coupling_link, uint, link)                                                                                    \
+  BUFFER(coupling_kind, uint, kind)                                                                                    \
+  BUFFER(coupling_row, float4, row)
+
 /* What a step knows of them. */
 #define GROUP_link_states(BUFFER)                                                                                      \
   BUFFER(link_state, float4, state)                                                                                    \
@@ -560,6 +567,9 @@ typedef struct {
 typedef struct {
   GROUP_links(READ_MEMBER)
 } read_links;
+typedef struct {
+  GROUP_tree_couplings(READ_MEMBER)
+} read_tree_couplings;
 typedef struct {
   GROUP_link_states(WRITE_MEMBER)
 } write_link_states;

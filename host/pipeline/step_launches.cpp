@@ -94,6 +94,7 @@ void StepLaunches::for_each_link_color(uint32_t pass)
   run(Kernel::solve_tree_contacts, {pass});
   solve_mixed_trees(pass);
   if (pass != PASS_WARM_STARTING) run(Kernel::solve_articulations, {pass});
+  if (has(FEATURE_TREE_COUPLINGS) && pass != PASS_BOUNCING) run(Kernel::solve_tree_couplings, {pass});
 }
 
 void StepLaunches::for_each_joint_color(Kernel joints, const Values &values)

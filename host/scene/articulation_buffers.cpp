@@ -130,7 +130,7 @@ void check_links(const Scene &scene, const Articulation &articulation, const std
 class LinkChecks {
 public:
   LinkChecks(const Scene &scene, const std::string &where)
-      : scene_(scene), where_(where), joints_(articulated_joints(scene)), linked_(scene.bodies.size())
+      : scene_(scene), where_(where), trees_(scene.joints.size(), no_link), linked_(scene.bodies.size())
   {}
 
   void check(const Articulation &articulation, const std::vector<OrderedLink> &links)
@@ -140,6 +140,8 @@ public:
         refuse_link(scene_, articulation, l.link.body, where_,
                     "is a link of another articulation, too; one tree holds a body");
       linked_[l.link.body] = true;
+      if (l.link.joint != ArticulationLink::none)
+        trees_[l.link.joint] = static_cast<uint32_t>(&articulation - scene_.articulations.data());
     }
     check_links(scene_, articulation, links, where_);
   }
@@ -147,9 +149,8 @@ public:
   void check_others() const
   {
     for (size_t k = 0; k < scene_.joints.size(); ++k)
-      if (!joints_[k] && holds_a_link(scene_.joints[k])) check_joint_at_link(scene_.joints[k], k, where_);
-    for (size_t k = 0; k < scene_.couplings.size(); ++k)
-      for (const uint32_t joint : {scene_.couplings[k].joint_a, scene_.couplings[k].joint_b}) check_coupled(k, joint);
+      if (trees_[k] == no_link && holds_a_link(scene_.joints[k])) check_joint_at_link(scene_.joints[k], k, where_);
+    for (size_t k = 0; k < scene_.couplings.size(); ++k) check_coupling(k);
     for (size_t k = 0; k < scene_.materials.size(); ++k) check_material_beside_links(scene_.materials[k], k, where_);
   }
 
@@ -159,18 +160,33 @@ private:
     const auto is_link = [&](uint32_t body) { return body != no_body && linked_[body]; };
     return !is_vacant(joint) && (is_link(joint.body_a) || is_link(joint.body_b));
   }
-  void check_coupled(size_t coupling, uint32_t joint) const
+  [[noreturn]] void refuse_coupling(size_t coupling, uint32_t joint, const char *why) const
   {
-    const char *const what = joints_[joint]                       ? "is one of an articulation"
-                             : holds_a_link(scene_.joints[joint]) ? "holds a link"
-                                                                  : nullptr;
-    if (what != nullptr)
-      refuse(where_, label("coupling", coupling, scene_.couplings[coupling].name),
-             fmt::format("couples joint {}, which {}; couplings are of other joints", joint, what));
+    refuse(where_, label("coupling", coupling, scene_.couplings[coupling].name),
+           fmt::format("couples joint {}, {}", joint, why));
+  }
+  /* Either of two joints of one tree, or of two that hold no links. */
+  void check_coupling(size_t k) const
+  {
+    const Coupling &coupling = scene_.couplings[k];
+    const uint32_t a = coupling.joint_a, b = coupling.joint_b;
+    for (const uint32_t joint : {a, b}) {
+      const Joint &one = scene_.joints[joint];
+      if (trees_[joint] != no_link && one.type != JointType::hinge && one.type != JointType::slider)
+        refuse_coupling(k, joint, "a coordinate of an articulation; of these, hinges and sliders can be coupled");
+      if (trees_[joint] == no_link && holds_a_link(one))
+        refuse_coupling(k, joint, "which holds a link of an articulation from outside; couplings are of other joints");
+    }
+    if (trees_[a] != trees_[b])
+      refuse_coupling(
+          k, trees_[a] == no_link ? b : a,
+          "a coordinate of an articulation, with a joint that is none of it; a coupling is of two joints of "
+          "one articulation, or of two that belong to none");
   }
   const Scene &scene_;
   const std::string &where_;
-  std::vector<bool> joints_, linked_;
+  std::vector<uint32_t> trees_; /* by joint, its articulation */
+  std::vector<bool> linked_;
 };
 
 } // namespace

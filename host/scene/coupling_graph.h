@@ -3,6 +3,8 @@
  *
  * A coupling pushes up to four bodies. Those of one colour share none that can be pushed. They have colours of their
  * own, because they are solved after the joints and contacts of a pass; those past the last colour are solved in order.
+ * Couplings of two joints of a tree stand behind all of these, tree after tree; their tree solves them
+ * (shared/articulations/couplings.h).
  */
 #pragma once
 
@@ -13,6 +15,7 @@
 #include <tandem/scene.h>
 
 #include "host/runtime/interface/features.h"
+#include "host/scene/articulation_buffers.h"
 #include "host/scene/staged_uploads.h"
 
 namespace tandem {
@@ -30,6 +33,10 @@ Features coupling_features(const Scene &scene);
 
 /* What does not change while the world runs. */
 void stage_couplings(StagedUploads &uploads, const Scene &scene, const CouplingGraph &graph);
+
+/* Those of trees. */
+void stage_couplings_of_trees(StagedUploads &uploads, const Scene &scene, const CouplingGraph &graph,
+                              const JointedLinks &links);
 
 /* The joints of couplings. awake: joints, by their places. */
 void stage_joints_of_couplings(StagedUploads &uploads, const Scene &scene, const CouplingGraph &graph,

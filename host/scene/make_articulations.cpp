@@ -1,5 +1,6 @@
 /* make_articulations.cpp - finds the trees that the joints of a scene make: a spanning forest, in the order of the
  * joints (Kruskal, "On the shortest spanning subtree of a graph", 1956). */
+#include <algorithm>
 #include <map>
 #include <numeric>
 
@@ -50,25 +51,44 @@ private:
 
 class Forest {
 public:
-  Forest(Scene &scene, const std::string &where, std::span<const float> armatures)
+  /* in_trees: by coupling, whether its joints shall belong to one tree. */
+  Forest(Scene &scene, const std::string &where, std::span<const float> armatures, const std::vector<bool> &in_trees)
       : scene_(scene), where_(where), armatures_(armatures), is_barred_(scene.bodies.size()),
         groups_(scene.bodies.size())
   {
-    for (const Coupling &coupling : scene.couplings)
-      for (const uint32_t joint : {coupling.joint_a, coupling.joint_b}) bar(scene.joints[joint]);
+    for (size_t k = 0; k < scene.couplings.size(); ++k)
+      for (const uint32_t joint : {scene.couplings[k].joint_a, scene.couplings[k].joint_b})
+        if (!in_trees[k]) bar(scene.joints[joint]);
     for (const Joint &joint : scene.joints)
       if (bounces(joint)) bar(joint);
   }
-  void grow()
+  void choose_joints()
   {
     for (uint32_t joint = 0; joint < scene_.joints.size(); ++joint)
       if (is_to_be_tried(joint)) try_joint(joint);
+  }
+  /* Strikes couplings out whose joints do not belong to one tree. Whether there were any. */
+  bool strike_out(std::vector<bool> &in_trees)
+  {
+    const std::vector<bool> before = in_trees;
+    for (size_t k = 0; k < in_trees.size(); ++k)
+      in_trees[k] = in_trees[k] && are_of_one_tree(scene_.couplings[k].joint_a, scene_.couplings[k].joint_b);
+    return in_trees != before;
+  }
+  void grow()
+  {
     for (const uint32_t joint : taken_) add(joint);
     note_left();
   }
 
 private:
-  /* Neither coupled joints nor those with limits that bounce may hold links. */
+  bool is_taken(uint32_t joint) const { return std::binary_search(taken_.begin(), taken_.end(), joint); }
+  bool are_of_one_tree(uint32_t a, uint32_t b)
+  {
+    return is_taken(a) && is_taken(b) &&
+           groups_.of(some_link_of(scene_.joints[a])) == groups_.of(some_link_of(scene_.joints[b]));
+  }
+  /* Neither coupled joints that are not of one tree, nor those with limits that bounce, may hold links. */
   void bar(const Joint &joint)
   {
     for (const uint32_t body : {joint.body_a, joint.body_b})
@@ -94,7 +114,7 @@ private:
     try {
       if (is_barred(joint.body_a) || is_barred(joint.body_b))
         refuse(where_, label("joint", index, joint.name),
-               "holds a body of a joint that is coupled or bounces; such bodies are no links");
+               "holds a body of a joint that bounces, or is coupled with none of its tree; such bodies are no links");
       Articulation alone;
       alone.joints = {index};
       check_articulation(scene_, alone, where_);
@@ -135,6 +155,32 @@ private:
   std::string first_left_;
 };
 
+bool can_be_coupled_in_tree(const Joint &joint)
+{
+  return joint.type == JointType::hinge || joint.type == JointType::slider;
+}
+
+std::vector<bool> couplings_of_hinges_and_sliders(const Scene &scene)
+{
+  std::vector<bool> are;
+  for (const Coupling &coupling : scene.couplings)
+    are.push_back(can_be_coupled_in_tree(scene.joints[coupling.joint_a]) &&
+                  can_be_coupled_in_tree(scene.joints[coupling.joint_b]));
+  return are;
+}
+
+/* Joints whose coupling would leave their tree hold no links, so that other couplings may leave theirs. */
+void grow_forest(Scene &scene, const std::string &where, std::span<const float> armatures)
+{
+  std::vector<bool> in_trees = couplings_of_hinges_and_sliders(scene);
+  for (;;) {
+    Forest forest(scene, where, armatures, in_trees);
+    forest.choose_joints();
+    if (forest.strike_out(in_trees)) continue;
+    return forest.grow();
+  }
+}
+
 } // namespace
 
 void make_articulations(Scene &scene, const std::string &where, std::span<const float> armatures)
@@ -145,7 +191,7 @@ void make_articulations(Scene &scene, const std::string &where, std::span<const 
                                  armatures.size(), scene.joints.size()));
   validate(scene, where);
   const size_t notes = scene.notes.size();
-  Forest(scene, where, armatures).grow();
+  grow_forest(scene, where, armatures);
   try {
     validate(scene, where);
   } catch (...) {

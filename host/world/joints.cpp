@@ -47,6 +47,7 @@ void World::Implementation::stage_joint_tables(StagedUploads &uploads, std::span
   stage_joints_of_couplings(uploads, scene, coupling_graph, joint_order.awake());
   if (!(special.features & FEATURE_ARTICULATIONS)) return;
   stage_articulations(uploads, scene, links);
+  if (special.features & FEATURE_TREE_COUPLINGS) stage_couplings_of_trees(uploads, scene, coupling_graph, links);
   stage_bodies_of_links(uploads, links, indices, plan.bodies, slots.status(), special.awake);
 }
 

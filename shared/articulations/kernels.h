@@ -5,6 +5,7 @@
 #define TANDEM_SHARED_ARTICULATIONS_KERNELS_H
 
 #include "shared/articulations/contact.h"
+#include "shared/articulations/couplings.h"
 #include "shared/articulations/joint.h"
 #include "shared/articulations/step.h"
 #include "shared/articulations/tree_contacts.h"

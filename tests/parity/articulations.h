@@ -66,6 +66,34 @@ inline Scene tree_crowd(uint64_t seed = 1, uint32_t trees = 12, uint32_t chain =
   return scene;
 }
 
+/* Hinges and sliders of each tree, of which every second one is coupled with the next. */
+inline void couple_trees(Scene &scene, Random &random)
+{
+  for (const Articulation &tree : scene.articulations) {
+    std::vector<uint32_t> able;
+    for (const uint32_t joint : tree.joints)
+      if (scene.joints[joint].type == JointType::hinge || scene.joints[joint].type == JointType::slider)
+        able.push_back(joint);
+    for (size_t k = 0; k + 1 < able.size(); k += random.below(2) + 1) {
+      Coupling &mimic = scene.couplings.emplace_back();
+      mimic.type = CouplingType::mimic;
+      mimic.joint_a = able[k];
+      mimic.joint_b = able[k + 1];
+      mimic.ratio = float(random.uniform(-2, 2));
+    }
+  }
+}
+
+/* tree_crowd() of which joints are coupled: with the next one of their tree, which shares bodies with them or not. */
+inline Scene coupled_trees(uint64_t seed = 1, uint32_t trees = 12, uint32_t chain = 0,
+                           const Shape &shape = box_shape(0.2f, 0.1f, 0.15f))
+{
+  Scene scene = tree_crowd(seed, trees, chain, shape);
+  Random random(seed + 300);
+  couple_trees(scene, random);
+  return scene;
+}
+
 /* tree_crowd() whose trees have loops, and hang on each other, on single bodies and on the world, by joints of many
  * types with limits, springs and motors. */
 inline Scene joined_trees(uint64_t seed = 1, uint32_t trees = 10)

@@ -33,6 +33,12 @@ Scene lone_chain(uint32_t links, BodyType far = BodyType::fixed)
   return scene;
 }
 
+uint32_t add_link_of_row(Scene &scene, uint32_t row, uint32_t link)
+{
+  add_body(scene, BodyType::dynamic, box_shape(0.2f, 0.1f, 0.1f), {0.5 * link, 0.1, 0.7 * row});
+  return uint32_t(scene.bodies.size() - 1);
+}
+
 void require_equal_links(World &world, World &other, uint32_t links)
 {
   const std::vector<BodyState> one = world.bodies(), two = other.bodies();
@@ -162,6 +168,56 @@ TEST_CASE("parity on CPU: joints that hold links, whose trees have loops and han
   require_parity(hub, cpu_backends(), 10, watched());
 }
 
+TEST_CASE("parity on CPU: coupled joints of articulations, alone and with couplings of bodies", "[articulations]")
+{
+  const Scene coupled = coupled_trees(2);
+  REQUIRE(coupled.couplings.size() > 5);
+  require_parity(coupled, cpu_backends(), 20, watched());
+  Scene both = coupled_trees(3, 6);
+  for (int k = 0; k < 2; ++k) {
+    add_body(both, BodyType::dynamic, box_shape(0.1f, 0.1f, 0.1f), {5.0 + k, 3, 0});
+    connect(both, JointType::hinge, no_body, uint32_t(both.bodies.size() - 1), {5.0 + k, 3.2, 0});
+  }
+  Coupling &gear = both.couplings.emplace_back();
+  gear.joint_a = uint32_t(both.joints.size() - 2);
+  gear.joint_b = uint32_t(both.joints.size() - 1);
+  gear.teeth_a = 3, gear.teeth_b = 5;
+  require_parity(both, cpu_backends(), 20, watched());
+}
+
+/* Of 24 trees of one shape beside each other some have fallen asleep while others are driven. */
+TEST_CASE("parity on CPU: trees of one shape of which some sleep", "[articulations]")
+{
+  Scene scene = empty_scene();
+  add_ground(scene);
+  for (uint32_t tree = 0; tree < 24; ++tree) {
+    Articulation articulation;
+    articulation.root = add_link_of_row(scene, tree, 0);
+    for (uint32_t link = 1; link < 4; ++link) {
+      const uint32_t body = add_link_of_row(scene, tree, link);
+      Joint &joint = connect(scene, JointType::hinge, body - 1, body, {0.5 * link - 0.25, 0.1, 0.7 * tree});
+      if (tree % 3 == 1) joint.rotations[0] = {.target_velocity = 1, .motor = true, .max_force = 3};
+      articulation.joints.push_back(uint32_t(scene.joints.size() - 1));
+    }
+    scene.articulations.push_back(articulation);
+  }
+  Random random(7);
+  couple_trees(scene, random);
+  Settings settings = watched();
+  settings.sleeping = true;
+  World world(scene, settings, {"serial", {}, false});
+  run(world, 150);
+  const uint32_t asleep = world.statistics().asleep;
+  CHECK((asleep >= 40 && asleep <= 80)); /* of 96 links */
+  require_parity(scene, {"serial", "tbb:threads=2,lanes=8"}, 150, settings);
+}
+
+TEST_CASE("parity on OpenCL: coupled joints of articulations")
+{
+  require_pocl();
+  require_parity(coupled_trees(4, 6, 0, sphere_shape(0.2f)), {"serial", "cl:pocl"}, 6, build_of_all_features());
+}
+
 TEST_CASE("parity on OpenCL: joints that hold links")
 {
   require_pocl();
@@ -197,6 +253,23 @@ TEST_CASE("a world with articulations goes on from its snapshot with the same bi
   require_goes_on(tree_crowd(6, 8, 0), watched(), [](const World &world, const World &original) {
     CHECK(world.scene().articulations.size() == original.scene().articulations.size());
   });
+}
+
+TEST_CASE("a world whose articulations are coupled goes on from its snapshot with the same bits, anywhere")
+{
+  require_goes_on(coupled_trees(6, 8), watched(), [](const World &world, const World &original) {
+    CHECK(world.scene().couplings == original.scene().couplings);
+  });
+}
+
+TEST_CASE("parity on CPU: worlds of a batch whose articulations are coupled have the bits of worlds alone")
+{
+  std::vector<Scene> scenes;
+  for (uint32_t world = 0; world < 11; ++world) {
+    scenes.push_back(coupled_trees(7, 4));
+    for (Body &body : scenes.back().bodies) body.linear_velocity = {0.1f * float(world), -0.5f, 0};
+  }
+  BatchBesideWorlds(scenes, "tbb:threads=3", {}).step(30);
 }
 
 TEST_CASE("parity on CPU: worlds of a batch with articulations have the bits of worlds alone")

@@ -234,6 +234,18 @@ TEST_CASE("what articulations cannot have is refused by name", "[articulations]"
   gear.joint_a = 3, gear.joint_b = 4;
   gear.teeth_a = gear.teeth_b = 1;
   refuses(other, "coupling 0: couples joint 3, which holds a link");
+  other.couplings[0].joint_a = 0, other.couplings[0].joint_b = 3;
+  refuses(other, "coupling 0: couples joint 3, which holds a link");
+  other.couplings[0].joint_b = 2;
+  CHECK(refusal(other) == "accepted");
+  add_body(other, BodyType::dynamic, box_shape(0.1f, 0.1f, 0.1f), {9, 9, 9});
+  connect(other, JointType::hinge, no_body, 3, {9, 9, 9});
+  other.couplings[0].joint_b = 5;
+  refuses(other, "coupling 0: couples joint 0, a coordinate of an articulation, with a joint that is none of it");
+  Articulation ball;
+  ball.joints = {5};
+  other.articulations.push_back(ball);
+  refuses(other, "with a joint that is none of it; a coupling is of two joints of one articulation");
   other = scene;
   other.articulations.push_back({"second", {}, 1, {}});
   refuses(other, "articulation 'second': body 1 is a link of another articulation");

@@ -449,10 +449,9 @@ void RobotBuilder::couple(const JointCoupling &coupling)
   check_coupling(coupling);
   const auto joint = axis_of_.find(coupling.joint), followed = axis_of_.find(coupling.followed);
   if (coupling.factor == 0 && joint != axis_of_.end()) return hold(joint->second, coupling);
-  if (is_tree() || joint == axis_of_.end() || followed == axis_of_.end())
-    return notes_.add(coupling.line,
-                      fmt::format("{}: joint \"{}\" does not follow joint \"{}\"{}", coupling.what, coupling.joint,
-                                  coupling.followed, is_tree() ? " in reduced coordinates" : ""));
+  if (joint == axis_of_.end() || followed == axis_of_.end())
+    return notes_.add(coupling.line, fmt::format("{}: joint \"{}\" does not follow joint \"{}\"", coupling.what,
+                                                 coupling.joint, coupling.followed));
   const auto coordinate_of = [](const PlacedAxis &place) { return JointCoordinate(place.axis.axis + 1); };
   const double sign = joint->second.axis.reversed ? -1 : 1, other = followed->second.axis.reversed ? -1 : 1;
   Coupling mimic;

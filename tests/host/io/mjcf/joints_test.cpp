@@ -186,14 +186,27 @@ TEST_CASE("mjcf: one joint that follows another is coupled with it, whichever wa
   CHECK(has_note(scene, "polycoef beyond its second number is not held"));
 }
 
-TEST_CASE("mjcf: in reduced coordinates one joint does not follow another, which is listed, and a joint is held")
+TEST_CASE("mjcf: in reduced coordinates one joint of a tree follows another, and a joint is held")
+{
+  const Scene scene = parse_scene_mjcf(R"(<mujoco><worldbody><body><joint name="p"/><geom size="1"/>
+    <body><joint name="q" axis="-1 0 0"/><geom size="1"/></body><body><joint name="r"/><geom size="1"/></body>
+    </body></worldbody><equality><joint joint1="p" joint2="q" polycoef="0.25 2 0 0 0"/>
+    <joint joint1="r" polycoef="0.5"/></equality></mujoco>)",
+                                       "tree.xml", OutsideFiles::refused, Coordinates::reduced);
+  REQUIRE(scene.couplings.size() == 1);
+  CHECK(scene.couplings[0].ratio == -2.0f);
+  CHECK(scene.joints[2].rotations[0].lower == 0.5f);
+  REQUIRE(scene.articulations.size() == 1);
+  CHECK(scene.articulations[0].joints.size() == 3);
+}
+
+TEST_CASE("mjcf: joints of two trees that follow each other hold no links")
 {
   const Scene scene = parse_scene_mjcf(R"(<mujoco><worldbody><body><joint name="p"/><geom size="1"/></body>
-    <body><joint name="q"/><geom size="1"/></body></worldbody><equality><joint joint1="p" joint2="q"/>
-    <joint joint1="q" polycoef="0.5"/></equality></mujoco>)",
+    <body><joint name="q"/><geom size="1"/></body><body><joint name="r"/><geom size="1"/></body></worldbody>
+    <equality><joint joint1="p" joint2="q"/></equality></mujoco>)",
                                        "tree.xml", OutsideFiles::refused, Coordinates::reduced);
-  CHECK(scene.couplings.empty());
-  CHECK(has_note(scene, R"(joint "p" does not follow joint "q" in reduced coordinates)"));
-  CHECK(scene.joints[1].rotations[0].lower == 0.5f);
-  CHECK(scene.articulations.size() == 2);
+  CHECK(scene.couplings.size() == 1);
+  CHECK(scene.articulations.size() == 1);
+  CHECK(has_note(scene, "is coupled with none of its tree"));
 }

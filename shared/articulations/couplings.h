@@ -1,0 +1,182 @@
+/* couplings.h - gears, racks, pulleys and mimics between two hinges or sliders of one tree.
+ *
+ *   row = of_a q_a + of_b q_b - offset      0, but for whole periods; of a rope at least 0
+ *
+ *          palm           The coordinates are those of the tree, so the row pushes joint a by of_a and joint b by of_b,
+ *         /    \          and the tree answers both at once:
+ *     a  o      o  b
+ *        |      |         a unit impulse of the row  ->  what is pending (respond.h)  ->  the change of the row
+ *      finger  finger
+ *
+ * That change is the exact response of the row. What is pending, times the impulse, is settled then, so each coupling
+ * sees all that those before it have done. An item is a tree, which solves its couplings one after another, after the
+ * rows of its joints. Kinds are those of joints/couplings.h, which are between bodies and as soft as joints; since the
+ * response here is exact, a row can be nearly rigid.
+ */
+#ifndef TANDEM_SHARED_ARTICULATIONS_COUPLINGS_H
+#define TANDEM_SHARED_ARTICULATIONS_COUPLINGS_H
+
+#include "shared/articulations/bodies.h"
+#include "shared/joints/couplings.h"
+
+typedef struct {
+  mask acts;
+  uint_lanes number; /* of the coupling */
+  tree_link a, b;
+  vec4 row; /* of_a, of_b, offset, period */
+} tree_coupling;
+
+SHARED tree_coupling load_tree_coupling(mask acts, const articulation *t, read_tree_couplings couplings,
+                                        uint_lanes number)
+{
+  tree_coupling c;
+  c.acts = acts;
+  c.number = choose(acts, number, (uint_lanes)0u);
+  c.a = tree_link_of(t, load_uint(couplings.link, 2u * c.number));
+  c.b = tree_link_of(t, load_uint(couplings.link, 2u * c.number + 1u));
+  c.row = load_float4(couplings.row, c.number);
+  return c;
+}
+
+SHARED real sum_of_coupling(const tree_coupling *c, real of_a, real of_b) { return c->row.x * of_a + c->row.y * of_b; }
+
+/* --- how the tree answers ------------------------------------------------------------------------------------- */
+/* An impulse of a joint of one degree of freedom becomes pending. */
+SHARED void push_joint_if(mask wanted, const articulation *t, tree_link l, real impulse)
+{
+  joint_share s = share_of_joint(t, l, load_placed_joint(t, l), no_force(), make_vec3(impulse, R(0.0), R(0.0)));
+  spatial_force pending = {s.pending, zero3()};
+  add_to_force(wanted, t, l.k, (uint)WORK_PENDING, pending);
+  push_link_if(wanted & !l.is_root, t, l.parent, &s.rest);
+}
+
+/* How what is pending changes the velocity of the joint. */
+SHARED real pending_change_of_joint(mask wanted, const articulation *t, tree_link l)
+{
+  spatial_motion parent = pending_change(t, choose(wanted & !l.is_root, (uint_lanes)l.parent, t->links));
+  vec3 change;
+  link_change(t, l, choose_motion(l.is_root, no_motion(), parent), &change);
+  return change.x;
+}
+
+/* Nothing is pending before; what a unit impulse of the row does is pending then. In statements, because each change
+ * notes a path and compilers order the arguments of a call as they like. */
+SHARED real response_of_coupling(const articulation *t, const tree_coupling *c)
+{
+  push_joint_if(c->acts, t, c->a, c->row.x);
+  push_joint_if(c->acts, t, c->b, c->row.y);
+  real of_a = pending_change_of_joint(c->acts, t, c->a);
+  real of_b = pending_change_of_joint(c->acts, t, c->b);
+  return sum_of_coupling(c, of_a, of_b);
+}
+
+CALLED void scale_pending_if(mask wanted, const articulation *tree, real factor)
+{
+  articulation own = *tree;
+  const articulation *t = &own;
+  for (uint k = 0u; k < t->most_links; ++k) {
+    tree_link l = tree_link_of(t, k);
+    spatial_force pending = scaled_force(load_pending(t, l.k), factor);
+    store_force(wanted & l.exists, t, l.k, (uint)WORK_PENDING, pending);
+  }
+}
+
+/* --- one coupling --------------------------------------------------------------------------------------------- */
+SHARED axis_row row_of_tree_coupling(const articulation *t, const tree_coupling *c)
+{
+  axis_row r;
+  r.speed = sum_of_coupling(c, load_state(t, c->a.k, (uint)STATE_JOINT_VELOCITY).x,
+                            load_state(t, c->b.k, (uint)STATE_JOINT_VELOCITY).x);
+  r.response = r.shared_response = response_of_coupling(t, c);
+  r.mass = inverse_if_positive(r.response);
+  return r;
+}
+
+SHARED real value_of_tree_coupling(const articulation *t, const tree_coupling *c)
+{
+  real sum = sum_of_coupling(c, load_state(t, c->a.k, (uint)STATE_JOINT_POSITION).x,
+                             load_state(t, c->b.k, (uint)STATE_JOINT_POSITION).x);
+  return coupling_value(sum - c->row.z, c->row.w);
+}
+
+/* Of the response: what keeps the impulses of couplings that contradict each other from growing without end. A load
+ * that sags by this share of a bias sinks a light finger by micrometres. */
+#define COUPLING_COMPLIANCE R(1e-3)
+
+/* open: above 0 it is ahead, of a row that is one-sided. */
+SHARED real change_of_coupling(GLOBAL const Parameters *parameters, const axis_row *r, mask one_sided, real open,
+                               real old, uint pass)
+{
+  if (pass != (uint)PASS_BIASED)
+    return choose(one_sided, stop_change(parameters, r, open, old, pass), hold_change(parameters, r, open, old, pass));
+  mask ahead = one_sided & (open > R(0.0));
+  real push = parameters->joint_bias_rate * open;
+  real bias = choose(ahead, open * parameters->inverse_substep, push * share_of_closing(push));
+  real compliance = choose(ahead, (real)R(0.0), (real)COUPLING_COMPLIANCE);
+  return R(0.0) - (r->mass * (r->speed + bias) + compliance * old) / (R(1.0) + compliance);
+}
+
+SHARED void solve_tree_coupling(GLOBAL const Parameters *parameters, const articulation *t, read_tree_couplings given,
+                                const tree_coupling *c, GLOBAL memory_real *impulse, uint pass)
+{
+  axis_row r = row_of_tree_coupling(t, c);
+  mask one_sided = (load_uint(given.kind, c->number) & (uint)COUPLING_ONE_SIDED) != 0u;
+  real old = load_real(impulse, c->number);
+  real now = old + change_of_coupling(parameters, &r, one_sided, value_of_tree_coupling(t, c), old, pass);
+  now = choose(one_sided, maximum(now, R(0.0)), now);
+  store_listed_real_if(c->acts, impulse, c->number, now);
+  scale_pending_if(c->acts, t, now - old);
+  settle_tree_if(c->acts, t);
+}
+
+/* --- from substep to substep ---------------------------------------------------------------------------------- */
+/* Impulses start the next substep as forces of the joints, which nothing else has in a step. */
+SHARED void set_joint_force_if(mask wanted, const articulation *t, tree_link l, real force)
+{
+  store_state(wanted, t, l.k, (uint)STATE_JOINT_FORCE, make_vec4(force, R(0.0), R(0.0), R(0.0)));
+}
+SHARED void clear_forces_of_coupling(const articulation *t, const tree_coupling *c)
+{
+  set_joint_force_if(c->acts, t, c->a, R(0.0));
+  set_joint_force_if(c->acts, t, c->b, R(0.0));
+}
+SHARED void add_forces_of_coupling(const articulation *t, const tree_coupling *c, real force)
+{
+  set_joint_force_if(c->acts, t, c->a, load_state(t, c->a.k, (uint)STATE_JOINT_FORCE).x + c->row.x * force);
+  set_joint_force_if(c->acts, t, c->b, load_state(t, c->b.k, (uint)STATE_JOINT_FORCE).x + c->row.y * force);
+}
+
+/* Those of the last step, by as much as those of joints. */
+SHARED void warm_start_tree_coupling(GLOBAL const Parameters *parameters, const tree_coupling *c,
+                                     GLOBAL memory_real *impulse)
+{
+  store_listed_real_if(c->acts, impulse, c->number, (real)parameters->warm_start_scale * load_real(impulse, c->number));
+}
+
+/* --- kernel --------------------------------------------------------------------------------------------------- */
+/* An item is a tree. */
+SHARED void solve_tree_couplings_item(GLOBAL const Parameters *parameters, read_links links,
+                                      read_tree_couplings couplings, write_link_states states,
+                                      GLOBAL memory_real *impulse, GLOBAL float4 *solver_velocity, uint pass,
+                                      item_index i)
+{
+  uint_lanes tree = i, first = load_uint(couplings.of_tree, 2u * tree),
+             count = load_uint(couplings.of_tree, 2u * tree + 1u);
+  articulation t = articulation_at(links, states, tree);
+  count = choose(has_links(&t), count, (uint_lanes)0u);
+  if (!any_of(count > 0u)) return;
+  uint gathers = pass == (uint)PASS_RELAXING || pass == (uint)PASS_WARM_STARTING ? 1u : 0u;
+  for (uint n = 0u; any_of((uint_lanes)n < count); ++n) {
+    tree_coupling c = load_tree_coupling((uint_lanes)n < count, &t, couplings, first + n);
+    if (pass == (uint)PASS_WARM_STARTING) warm_start_tree_coupling(parameters, &c, impulse);
+    else solve_tree_coupling(parameters, &t, couplings, &c, impulse, pass);
+    if (gathers) clear_forces_of_coupling(&t, &c);
+  }
+  for (uint n = 0u; gathers && any_of((uint_lanes)n < count); ++n) {
+    tree_coupling c = load_tree_coupling((uint_lanes)n < count, &t, couplings, first + n);
+    add_forces_of_coupling(&t, &c, load_real(impulse, c.number) * parameters->inverse_substep);
+  }
+  if (pass != (uint)PASS_WARM_STARTING) write_velocities(links, &t, solver_velocity);
+}
+
+#endif
