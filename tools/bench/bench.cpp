@@ -86,6 +86,7 @@ void check_options(const BenchOptions &options)
           {"broadphase", "scenes", "left-out", "floors", "starts", "batching", "controls"});
   only_of("--steps", !options.steps.empty(), {"scenes", "left-out", "batching", "controls"});
   only_of("--table-in", !options.table.empty(), {"scenes", "left-out", "floors", "starts"});
+  only_of("--error", options.error, {"controls"});
   if ((options.what == "floors" || options.what == "starts") && !options.count.empty())
     throw InputError(fmt::format("--n: bench {} takes the size from --scene, as --scene spheres:n=1000; leave it out",
                                  options.what));
@@ -154,6 +155,8 @@ Command bench_command(CLI::App &parser)
   command->add_option("--beside", options->beside, "sizes: runs to show beside this one, as their --json wrote them")
       ->delimiter(',')
       ->type_name("FILE.json,...");
+  command->add_flag("--error", options->error,
+                    "controls: tell how far the robots are from a run with a 32nd of the step, too");
   command->add_flag("--inexact", options->inexact, "accept devices that fail the exactness self-test");
   command->add_option("--json", options->json.path, "write the result as JSON; - for standard output")
       ->type_name("FILE");

@@ -13,6 +13,7 @@
 #include "host/base/random.h"
 #include "host/catalog/catalog.h"
 #include "host/runtime/interface/kernel_list.h"
+#include "tools/bench/controls_error.h"
 #include "tools/command/measure.h"
 #include "tools/command/progress.h"
 #include "tools/command/scene_options.h"
@@ -70,6 +71,14 @@ std::vector<Actuator> driving_actuators(const Scene &scene)
   return actuators;
 }
 
+Settings driven_settings()
+{
+  Settings settings;
+  settings.step = control_step;
+  settings.substeps = 1;
+  return settings;
+}
+
 using Clock = std::chrono::steady_clock;
 double milliseconds_from(Clock::time_point start, Clock::time_point end)
 {
@@ -79,7 +88,7 @@ double milliseconds_from(Clock::time_point start, Clock::time_point end)
 class DrivenWorlds {
 public:
   DrivenWorlds(const Scene &scene, uint32_t worlds, const Placement &placement)
-      : worlds_(scene, worlds, settings(), placement), actuators_(driving_actuators(worlds_.scene(0))),
+      : worlds_(scene, worlds, driven_settings(), placement), actuators_(driving_actuators(worlds_.scene(0))),
         values_(worlds * actuators_.size())
   {
     worlds_.choose_controls(actuators_);
@@ -105,13 +114,6 @@ public:
   }
 
 private:
-  static Settings settings()
-  {
-    Settings settings;
-    settings.step = control_step;
-    settings.substeps = 1;
-    return settings;
-  }
   void advance(uint64_t step, ControlsTime &time)
   {
     for (size_t i = 0; i < values_.size(); ++i) {
@@ -201,6 +203,29 @@ Json json_of(const ControlsTime &time)
           {"kernels", json_of_kernels(time.kernels)}};
 }
 
+/* What the benchmark tells of one robot. */
+struct RobotReport {
+  std::string text;
+  Json json;
+};
+
+RobotReport report_of(const std::string &name, uint32_t worlds, uint64_t steps, const BenchOptions &options)
+{
+  const Scene scene = load_scene(name, OutsideFiles::allowed, Coordinates::reduced);
+  if (options.error) check_comparable(scene); /* before the time that the rest takes */
+  const Placement placement{options.on, {}, options.inexact};
+  ControlsTime time = DrivenWorlds(scene, worlds, placement).run(steps);
+  time.scene = name;
+  RobotReport report{text_of(time, steps), json_of(time)};
+  if (options.error) {
+    const ControlsError error = controls_error(scene, driving_actuators(scene), std::min(worlds, most_worlds_of_error),
+                                               driven_settings(), placement);
+    report.text += text_of(error);
+    report.json["error"] = json_of(error);
+  }
+  return report;
+}
+
 } // namespace
 
 int execute_controls(const BenchOptions &options)
@@ -213,15 +238,13 @@ int execute_controls(const BenchOptions &options)
   const uint64_t steps =
       options.steps.empty() ? steps_unless_given : whole_number("--steps", options.steps, 1, uint64_t{1000000});
   options.json.check();
-  Json times = Json::array();
+  Json robots = Json::array();
   for (const std::string &name : scenes) {
-    const Scene scene = load_scene(name, OutsideFiles::allowed, Coordinates::reduced);
-    ControlsTime time = DrivenWorlds(scene, worlds, {options.on, {}, options.inexact}).run(steps);
-    time.scene = name;
-    if (!options.json.takes_standard_output()) fmt::print("controls on {}\n{}", options.on, text_of(time, steps));
-    times.push_back(json_of(time));
+    const RobotReport report = report_of(name, worlds, steps, options);
+    if (!options.json.takes_standard_output()) fmt::print("controls on {}\n{}", options.on, report.text);
+    robots.push_back(report.json);
   }
-  options.json.write({{"what", options.what}, {"backend", options.on}, {"robots", times}});
+  options.json.write({{"what", options.what}, {"backend", options.on}, {"robots", robots}});
   return 0;
 }
 

@@ -11,7 +11,7 @@ namespace tandem {
 struct BenchOptions {
   std::string what, on = "tbb", count, steps, chart, table;
   std::vector<std::string> pairs, broadphases, scenes, beside;
-  bool inexact = false;
+  bool inexact = false, error = false;
   JsonOutput json;
 };
 
