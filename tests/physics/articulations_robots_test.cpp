@@ -103,8 +103,7 @@ TEST_CASE("a ball of a tree gets and loses its limits while the world runs", "[a
   CHECK(farthest > 1);
 }
 
-TEST_CASE("ragdolls in reduced coordinates fall and lie within their limits, with the same bits in lanes",
-          "[articulations]")
+TEST_CASE("ragdolls in reduced coordinates fall with closed joints and the same bits in lanes", "[articulations]")
 {
   const Scene scene = load_scene("ragdolls:n=4,height=2", OutsideFiles::refused, Coordinates::reduced);
   CHECK(scene.articulations.size() == 4);
@@ -118,7 +117,20 @@ TEST_CASE("ragdolls in reduced coordinates fall and lie within their limits, wit
     open = std::max(open, open_joints(world).max_distance);
   }
   CHECK(open < 2e-6);
-  CHECK(beyond_limits(world) < 0.02);
+}
+
+/* How far the worst limit of a person gives way depends on how the person lies, so several falls are asked. */
+TEST_CASE("ragdolls in reduced coordinates lie within their limits", "[articulations]")
+{
+  std::vector<double> beyond;
+  for (const char *height : {"1.4", "1.6", "1.8", "2", "2.2", "2.4", "2.6"}) {
+    World world(load_scene("ragdolls:n=4,height=" + std::string(height), OutsideFiles::refused, Coordinates::reduced));
+    run(world, 300);
+    beyond.push_back(beyond_limits(world));
+  }
+  std::sort(beyond.begin(), beyond.end());
+  CHECK(beyond[beyond.size() / 2] < 0.015);
+  CHECK(beyond.back() < 0.03);
 }
 
 /* Work memory is compared, too. Of nine trees eight share instructions, and in most passes some of them push. */
