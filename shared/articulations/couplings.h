@@ -129,6 +129,22 @@ SHARED void solve_tree_coupling(GLOBAL const Parameters *parameters, const artic
   settle_tree_if(c->acts, t);
 }
 
+/* Those that share joints, as of a finger whose joints follow each other, need more than one sweep. */
+#define COUPLING_SWEEPS 8u
+
+SHARED void solve_couplings_of_tree(GLOBAL const Parameters *parameters, const articulation *t,
+                                    read_tree_couplings given, uint_lanes first, uint_lanes count,
+                                    GLOBAL memory_real *impulse, uint pass)
+{
+  for (uint sweep = 0u; sweep < COUPLING_SWEEPS; ++sweep) {
+    uint_lanes in_sweep = choose((count > 1u) | (count == (uint_lanes)sweep + 1u), count, (uint_lanes)0u);
+    for (uint n = 0u; any_of((uint_lanes)n < in_sweep); ++n) {
+      tree_coupling c = load_tree_coupling((uint_lanes)n < in_sweep, t, given, first + n);
+      solve_tree_coupling(parameters, t, given, &c, impulse, pass);
+    }
+  }
+}
+
 /* --- from substep to substep ---------------------------------------------------------------------------------- */
 /* Impulses start the next substep as forces of the joints, which nothing else has in a step. */
 SHARED void set_joint_force_if(mask wanted, const articulation *t, tree_link l, real force)
@@ -145,12 +161,28 @@ SHARED void add_forces_of_coupling(const articulation *t, const tree_coupling *c
   set_joint_force_if(c->acts, t, c->a, load_state(t, c->a.k, (uint)STATE_JOINT_FORCE).x + c->row.x * force);
   set_joint_force_if(c->acts, t, c->b, load_state(t, c->b.k, (uint)STATE_JOINT_FORCE).x + c->row.y * force);
 }
-
-/* Those of the last step, by as much as those of joints. */
-SHARED void warm_start_tree_coupling(GLOBAL const Parameters *parameters, const tree_coupling *c,
-                                     GLOBAL memory_real *impulse)
+SHARED void keep_share_of_impulse(const tree_coupling *c, real share, GLOBAL memory_real *impulse)
 {
-  store_listed_real_if(c->acts, impulse, c->number, (real)parameters->warm_start_scale * load_real(impulse, c->number));
+  store_listed_real_if(c->acts, impulse, c->number, share * load_real(impulse, c->number));
+}
+
+/* What the next substep starts with: of one coupling all, of n the n-th part. With all of it, eight sliders that follow
+ * one of their mass gained energy without end, because what is given again and what the sweeps find add up. */
+SHARED void gather_couplings_of_tree(GLOBAL const Parameters *parameters, const articulation *t,
+                                     read_tree_couplings given, uint_lanes first, uint_lanes count,
+                                     GLOBAL memory_real *impulse, uint pass)
+{
+  real share = R(1.0) / to_real(choose(count > 0u, count, (uint_lanes)1u));
+  if (pass == (uint)PASS_WARM_STARTING) share = share * parameters->warm_start_scale;
+  for (uint n = 0u; any_of((uint_lanes)n < count); ++n) {
+    tree_coupling c = load_tree_coupling((uint_lanes)n < count, t, given, first + n);
+    keep_share_of_impulse(&c, share, impulse);
+    clear_forces_of_coupling(t, &c);
+  }
+  for (uint n = 0u; any_of((uint_lanes)n < count); ++n) {
+    tree_coupling c = load_tree_coupling((uint_lanes)n < count, t, given, first + n);
+    add_forces_of_coupling(t, &c, load_real(impulse, c.number) * parameters->inverse_substep);
+  }
 }
 
 /* --- kernel --------------------------------------------------------------------------------------------------- */
@@ -165,18 +197,12 @@ SHARED void solve_tree_couplings_item(GLOBAL const Parameters *parameters, read_
   articulation t = articulation_at(links, states, tree);
   count = choose(has_links(&t), count, (uint_lanes)0u);
   if (!any_of(count > 0u)) return;
-  uint gathers = pass == (uint)PASS_RELAXING || pass == (uint)PASS_WARM_STARTING ? 1u : 0u;
-  for (uint n = 0u; any_of((uint_lanes)n < count); ++n) {
-    tree_coupling c = load_tree_coupling((uint_lanes)n < count, &t, couplings, first + n);
-    if (pass == (uint)PASS_WARM_STARTING) warm_start_tree_coupling(parameters, &c, impulse);
-    else solve_tree_coupling(parameters, &t, couplings, &c, impulse, pass);
-    if (gathers) clear_forces_of_coupling(&t, &c);
+  if (pass != (uint)PASS_WARM_STARTING) {
+    solve_couplings_of_tree(parameters, &t, couplings, first, count, impulse, pass);
+    write_velocities(links, &t, solver_velocity);
   }
-  for (uint n = 0u; gathers && any_of((uint_lanes)n < count); ++n) {
-    tree_coupling c = load_tree_coupling((uint_lanes)n < count, &t, couplings, first + n);
-    add_forces_of_coupling(&t, &c, load_real(impulse, c.number) * parameters->inverse_substep);
-  }
-  if (pass != (uint)PASS_WARM_STARTING) write_velocities(links, &t, solver_velocity);
+  if (pass == (uint)PASS_RELAXING || pass == (uint)PASS_WARM_STARTING)
+    gather_couplings_of_tree(parameters, &t, couplings, first, count, impulse, pass);
 }
 
 #endif

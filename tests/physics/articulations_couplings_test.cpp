@@ -242,6 +242,58 @@ TEST_CASE("couplings of a tree that contradict each other pull without exploding
   for (const uint32_t joint : {0u, 1u}) CHECK(std::abs(coordinate_of_joint(world, joint).second) < 30);
 }
 
+/* Sliders on a rail that all follow the first, which is light and is pushed. */
+TEST_CASE("many joints that follow a light one accelerate by the mass of all", "[articulations]")
+{
+  const uint32_t followers = GENERATE(4u, 8u, 12u);
+  const float driver = GENERATE(0.2f, 1.0f);
+  Scene scene = empty_scene({0, 0, 0});
+  add_body(scene, BodyType::dynamic, box_shape(1, 0.1f, 0.1f), {0, 0, 0}).mass = 5;
+  connect(scene, JointType::fixed, no_body, 0, {0, 0, 0});
+  for (uint32_t k = 0; k <= followers; ++k) {
+    Body &body = add_body(scene, BodyType::dynamic, box_shape(0.1f, 0.1f, 0.1f), {0.3 * k, 1, 0});
+    body.mass = k == 0 ? driver : 1.0f;
+    body.filter_mask = 0;
+    connect(scene, JointType::slider, 0, uint32_t(scene.bodies.size() - 1), {0.3 * k, 1, 0}, Vector::UnitX());
+    if (k > 0) scene.couplings.push_back(mimic_of(k + 1, 1, -1));
+  }
+  articulate(scene);
+  scene.joints[1].directions[0].force = 1;
+  World world(scene, {}, {"serial", {}});
+  run(world, 600);
+  const double expected = 10.0 / (double{driver} + followers);
+  for (uint32_t joint = 1; joint <= followers + 1; ++joint)
+    CHECK(coordinate_of_joint(world, joint).second == Approx(expected).epsilon(0.02));
+  CHECK(worst_of_couplings(world) < 0.01);
+}
+
+/* A finger of equal links whose joints each follow the one before, against a stop and its weight. */
+TEST_CASE("a finger whose joints follow each other comes to rest", "[articulations]")
+{
+  for (const uint32_t links : {3u, 4u, 6u}) {
+    Scene scene = empty_scene();
+    for (uint32_t k = 0; k < links; ++k) {
+      add_body(scene, BodyType::dynamic, box_shape(0.05f, 0.01f, 0.01f), {0.05 + 0.1 * k, 0, 0}).mass = 0.1f;
+      scene.bodies.back().filter_mask = 0;
+      Joint &joint = connect(scene, JointType::hinge, k == 0 ? no_body : k - 1, k, {0.1 * k, 0, 0}, Vector::UnitZ());
+      joint.rotations[0].damping = 0.01f;
+      if (k > 0) scene.couplings.push_back(mimic_of(k, k - 1, -1));
+    }
+    scene.joints[0].rotations[0].lower = -0.5f;
+    scene.joints[0].rotations[0].upper = 0.5f;
+    articulate(scene);
+    World world(scene, {}, {"serial", {}});
+    run(world, 600);
+    CAPTURE(links);
+    double fastest = 0;
+    for (uint32_t joint = 0; joint < links; ++joint)
+      fastest = std::max(fastest, std::abs(coordinate_of_joint(world, joint).second));
+    CHECK(fastest < 0.5);
+    CHECK(worst_of_couplings(world) < (links <= 4 ? 0.006 : 0.08));
+    CHECK(coordinate_of_joint(world, 0).first == Approx(-0.5).margin(0.05));
+  }
+}
+
 TEST_CASE("a gripper of a robot's file closes both of its fingers in reduced coordinates", "[articulations]")
 {
   const Scene scene =
