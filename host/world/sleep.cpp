@@ -40,9 +40,11 @@ size_t words_of(Buffer buffer)
 /* What a pair remembers without regard to which of its bodies is the first. */
 bool is_symmetric(Buffer buffer) { return buffer == Buffer::cached_color || buffer == Buffer::cached_touching; }
 
-/* The buffers of the scene and of modules that have a row for each body. */
+/* The buffers of the scene and of modules that have a row for each body. Those of body_link name their own place, which
+ * tell_joints() gives anew in scenes with articulations; without any they stay what they are. */
 bool follows_bodies(Buffer buffer)
 {
+  if (buffer == Buffer::body_link) return false;
   const BufferRow &row = row_of(buffer);
   const bool kept =
       row.lifetime == Lifetime::SCENE || (row.lifetime == Lifetime::KEPT && index_of(buffer) >= buffer_count);
