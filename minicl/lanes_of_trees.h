@@ -120,15 +120,10 @@ SHARED real load_real_of_row(const memory_real *from, row_number at)
 {
   return at.in_order ? load_real(from, item_index{at.first}) : load_real(from, at.each);
 }
-SHARED void store_real_if(mask m, memory_real *to, uint_lanes i, real value)
-{
-  for (int lane = 0; lane < width; ++lane)
-    if (m.v[lane]) to[i.v[lane]] = value.v[lane];
-}
 SHARED void store_real_of_row_if(mask m, memory_real *to, row_number at, real value)
 {
   if (at.in_order && all_of(m)) store_real(to, item_index{at.first}, value);
-  else store_real_if(m, to, at.in_order ? each_of(at) : at.each, value);
+  else store_listed_real_if(m, to, at.in_order ? each_of(at) : at.each, value);
 }
 SHARED uint_lanes load_uint_of_row(const uint *from, row_number at)
 {

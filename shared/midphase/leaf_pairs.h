@@ -6,7 +6,8 @@
  *
  * It runs between broadphase and narrowphase in scenes with compounds or meshes. Pairs are counted, the counts are
  * scanned, and the pairs are written. The list has no gaps and the order of the trees, and if it exceeds its capacity,
- * the step runs again. A body without a tree is one leaf. All pairs of leaves of one pair of bodies are adjacent, so
+ * the step runs again. Counting keeps the first few pairs of leaves of two bodies, so that writing finds them again only
+ * where there are more. A body without a tree is one leaf. All pairs of leaves of one pair of bodies are adjacent, so
  * that merge.h can join their manifolds. A pair of bodies without any is dropped.
  *
  * One leaf against a tree needs no stack; subtree_pairs.h does the same by work-groups. Two trees are descended
@@ -31,16 +32,36 @@ typedef struct {
   read_bodies bodies;
 } midphase_scene;
 
-/* The list that pairs are written to; without `writes` it only counts. */
+/* The first pairs of leaves of two bodies: the numbers of both in their trees, of 8 bits each, two pairs a word. */
+#define KEPT_LEAF_PAIRS 4u
+#define MOST_KEPT_LEAVES 255u      /* a leaf with a larger number is not kept */
+#define NO_KEPT_LEAVES 0xffffffffu /* in place of the first word, if there is such a leaf */
+typedef struct {
+  uint first, second;
+} kept_leaves;
+
+/* The list that pairs are written to; without `writes` it only counts, and keeps the first ones. */
 typedef struct {
   mask writes;
   write_pairs_of_leaves pairs;
   uint at, end, found;
+  kept_leaves kept;
 } leaf_list;
 
-/* A part of a body: its shape, and one triangle if the shape is a mesh. */
+SHARED leaf_list counting_list(void)
+{
+  leaf_list list = {0, {0, 0, 0}, 0u, 0u, 0u, {0u, 0u}};
+  return list;
+}
+SHARED leaf_list writing_list(write_pairs_of_leaves pairs, uint at, uint end)
+{
+  leaf_list list = {1, pairs, at, end, 0u, {0u, 0u}};
+  return list;
+}
+
+/* A part of a body: its shape, one triangle if the shape is a mesh, and its number in the tree of the body. */
 typedef struct {
-  uint shape, triangle;
+  uint shape, triangle, number;
 } leaf;
 
 /* One body of a pair, with the axes and the origin of its shape as seen from the centre of the first body. */
@@ -143,19 +164,29 @@ SHARED tree_probe probe_for_single(const midphase_scene *scene, const tree_body 
 
 SHARED leaf single_leaf(uint body)
 {
-  leaf part = {body, INDEX_NONE};
+  leaf part = {body, INDEX_NONE, 0u};
   return part;
 }
 SHARED leaf leaf_of_tree(const midphase_scene *scene, uint body, uint first_child, const tree *t, uint number)
 {
   GLOBAL const uint *entry = scene->trees.leaves + (t->first_leaf + number) * 2u;
-  leaf part = {entry[0] == INDEX_NONE ? body : first_child + entry[0], entry[1]};
+  leaf part = {entry[0] == INDEX_NONE ? body : first_child + entry[0], entry[1], number};
   return part;
+}
+
+SHARED void keep_leaf_pair(kept_leaves *kept, uint place, leaf a, leaf b)
+{
+  if (place >= KEPT_LEAF_PAIRS) return;
+  uint numbers = (a.number | b.number << 8u) << 16u * (place % 2u);
+  if (a.number >= MOST_KEPT_LEAVES || b.number >= MOST_KEPT_LEAVES) kept->first = NO_KEPT_LEAVES;
+  else if (place < 2u) kept->first |= numbers;
+  else kept->second |= numbers;
 }
 
 SHARED void add_leaf_pair(leaf_list *list, const midphase_scene *scene, uint body_a, leaf a, uint body_b, leaf b)
 {
   if (!filters_accept(scene->parameters, scene->filters, a.shape, b.shape)) return;
+  keep_leaf_pair(&list->kept, list->found, a, b);
   uint place = saturated_sum(list->at, list->found);
   list->found = saturated_sum(list->found, 1u); /* two meshes may have more than 2^32 pairs of triangles */
   if (!list->writes || place >= list->end) return;
@@ -288,16 +319,35 @@ SHARED void find_leaf_pairs(leaf_list *list, const midphase_scene *scene, uint a
   else find_without_walk(list, scene, a, b);
 }
 
+SHARED leaf leaf_of_number(const midphase_scene *scene, uint body, uint number)
+{
+  if (!has_tree(scene, body)) return single_leaf(body);
+  tree t = load_tree(scene->trees, scene->body_trees[body * 2u]);
+  return leaf_of_tree(scene, body, scene->body_trees[body * 2u + 1u], &t, number);
+}
+
+SHARED void write_kept_leaf_pairs(leaf_list *list, const midphase_scene *scene, uint a, uint b, kept_leaves kept,
+                                  uint length)
+{
+  for (uint n = 0u; n < length; ++n) {
+    uint numbers = (n < 2u ? kept.first : kept.second) >> 16u * (n % 2u);
+    add_leaf_pair(list, scene, a, leaf_of_number(scene, a, numbers & 0xffu), b,
+                  leaf_of_number(scene, b, numbers >> 8u & 0xffu));
+  }
+}
+
 /* --- kernels ------------------------------------------------------------------------------------------------ */
 
 SHARED void count_leaf_pairs_item(GLOBAL const Parameters *parameters, read_pairs pairs, read_shapes shapes,
                                   GLOBAL const uint *filters, read_trees trees, read_bodies bodies,
-                                  GLOBAL uint *leaf_start, uint i)
+                                  GLOBAL uint *leaf_start, GLOBAL uint *leaf_kept, uint i)
 {
   midphase_scene scene = {parameters, shapes, filters, trees.of_body, tables_of_trees(trees), bodies};
-  leaf_list list = {0, {0, 0, 0}, 0u, 0u, 0u};
+  leaf_list list = counting_list();
   find_leaf_pairs(&list, &scene, pairs.a[i], pairs.b[i]);
   leaf_start[i] = list.found;
+  leaf_kept[2u * i] = list.kept.first;
+  leaf_kept[2u * i + 1u] = list.kept.second;
 }
 
 /* From here on a pair is a pair of leaves. If the pairs of bodies already exceeded their capacity, `needed` keeps their
@@ -313,12 +363,17 @@ SHARED void count_all_leaf_pairs_item(GLOBAL const uint *leaf_start, GLOBAL uint
 
 SHARED void write_leaf_pairs_item(GLOBAL const Parameters *parameters, read_pairs pairs, read_shapes shapes,
                                   GLOBAL const uint *filters, read_trees trees, read_bodies bodies,
-                                  GLOBAL const uint *leaf_start, GLOBAL const uint *counts, write_pairs_of_leaves found,
-                                  uint i)
+                                  GLOBAL const uint *leaf_start, GLOBAL const uint *leaf_kept,
+                                  GLOBAL const uint *counts, write_pairs_of_leaves found, uint i)
 {
+  uint length = leaf_start[i + 1u] - leaf_start[i];
+  if (length == 0u) return;
   midphase_scene scene = {parameters, shapes, filters, trees.of_body, tables_of_trees(trees), bodies};
-  leaf_list list = {1, found, leaf_start[i], counts[CAPACITY_PAIRS], 0u};
-  find_leaf_pairs(&list, &scene, pairs.a[i], pairs.b[i]);
+  leaf_list list = writing_list(found, leaf_start[i], counts[CAPACITY_PAIRS]);
+  kept_leaves kept = {leaf_kept[2u * i], leaf_kept[2u * i + 1u]};
+  if (length <= KEPT_LEAF_PAIRS && kept.first != NO_KEPT_LEAVES)
+    write_kept_leaf_pairs(&list, &scene, pairs.a[i], pairs.b[i], kept, length);
+  else find_leaf_pairs(&list, &scene, pairs.a[i], pairs.b[i]);
 }
 
 /* Stores where the pairs of each body start, now that they are pairs of leaves. */

@@ -280,7 +280,7 @@ SHARED void count_leaf_pairs_by_subtree_group(GLOBAL const Parameters *parameter
                                               LOCAL uint *local_memory, uint group)
 {
   midphase_scene scene = {parameters, shapes, filters, trees.of_body, tables_of_trees(trees), bodies};
-  leaf_list list = {0, {0, 0, 0}, 0u, 0u, 0u};
+  leaf_list list = counting_list();
   const uint first = group * GROUP_PAIRS, count = items_in_tile(counts[COUNT_BODY_PAIRS], GROUP_PAIRS, group);
   pair_group work = {scene, subtrees, pairs, first, count, list, 0};
   if (count == 0u) return;
@@ -295,7 +295,7 @@ SHARED void write_leaf_pairs_by_subtree_group(GLOBAL const Parameters *parameter
                                               LOCAL uint *local_memory, uint group)
 {
   midphase_scene scene = {parameters, shapes, filters, trees.of_body, tables_of_trees(trees), bodies};
-  leaf_list list = {1, found, 0u, counts[CAPACITY_PAIRS], 0u};
+  leaf_list list = writing_list(found, 0u, counts[CAPACITY_PAIRS]);
   const uint count = items_in_tile(counts[COUNT_BODY_PAIRS], GROUP_PAIRS, group);
   pair_group work = {scene, subtrees, pairs, group * GROUP_PAIRS, count, list, leaf_start};
   if (count == 0u) return;

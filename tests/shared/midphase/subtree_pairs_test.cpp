@@ -54,7 +54,7 @@ struct PairStorage {
   std::vector<uint32_t> a, b, leaf;
   leaf_list list;
   explicit PairStorage(uint32_t size)
-      : a(size), b(size), leaf(4 * size_t{size}), list{1, {a.data(), b.data(), leaf.data()}, 0, size, 0}
+      : a(size), b(size), leaf(4 * size_t{size}), list(writing_list({a.data(), b.data(), leaf.data()}, 0, size))
   {}
 };
 
