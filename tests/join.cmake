@@ -49,8 +49,10 @@ join_tests(other_tests convex "shared/narrowphase/(conservative|convex|cube|gjk|
 join_tests(other_tests tools "tools/(bench|command|diff|embed|plot)/")
 join_tests(other_tests recording_command "tools/command/(bench_controls|bench_left_out|bench_scenes|recording)_test")
 join_tests(other_tests stability "tools/stability/")
-# These compile what their neighbours have under the same names: shared/ in double, and its trees beside the host's.
-set_source_files_properties(shared/narrowphase/convex_reference_test.cpp shared/midphase/subtree_pairs_test.cpp
+# These compile what their neighbours have under the same names: shared/ in double, its trees beside the host's, and
+# vectors of hulls.
+set_source_files_properties(host/geometry/fine_hulls_test.cpp
+  shared/narrowphase/convex_reference_test.cpp shared/midphase/subtree_pairs_test.cpp
   shared/articulations/articulations_test.cpp shared/articulations/articulations_motion_test.cpp
   shared/articulations/articulations_float_test.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 # Its times are those of code that is optimised as kernels are.

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <unordered_map>
 
 #include <fmt/format.h>
 
@@ -84,10 +83,10 @@ std::vector<uint32_t> named_by(const std::vector<Polygon> &faces)
 /* The points that are corners of three faces or more. The others lie inside a face or an edge, within the tolerance. */
 std::vector<uint32_t> true_corners(const std::vector<Polygon> &faces)
 {
-  std::unordered_map<uint32_t, int> count;
+  std::vector<uint32_t> corners = named_by(faces);
+  std::vector<uint32_t> count(corners.empty() ? 0 : corners.back() + size_t{1});
   for (const Polygon &face : faces)
     for (uint32_t corner : face) ++count[corner];
-  std::vector<uint32_t> corners = named_by(faces);
   std::erase_if(corners, [&](uint32_t corner) { return count[corner] < 3; });
   return corners;
 }
@@ -158,14 +157,20 @@ private:
   size_t visit_ = 0;
 };
 
-/* Few faces within `tolerance` of the hull of the points in `kept`. A first hull omits points that rounding put
+/* Of these of the points; the faces have the indices of all points. */
+struct ExactHull {
+  std::vector<uint32_t> points;
+  std::vector<Polygon> faces;
+};
+
+/* Few faces within `tolerance` of the exact hull of all points. A first hull omits points that rounding put
  * slightly outside of flat regions; the exact hull of the rest is then merged until no point is left out. The result is
  * empty if too few points remain, because the hull is hardly thicker than the tolerance. */
-std::vector<Polygon> simplified(const std::vector<Vector> &points, std::vector<uint32_t> kept, double tolerance)
+std::vector<Polygon> simplified(const std::vector<Vector> &points, const ExactHull &all, double tolerance)
 {
-  kept = named_by(faces_of(points, kept, tolerance));
+  std::vector<uint32_t> kept = named_by(faces_of(points, named_by(all.faces), tolerance));
   while (kept.size() >= 4) {
-    const std::vector<Polygon> exact = faces_of(points, kept, 0);
+    const std::vector<Polygon> exact = kept == all.points ? all.faces : faces_of(points, kept, 0);
     if (exact.empty()) return {};
     std::vector<Polygon> merged = merged_faces(points, exact, tolerance);
     std::vector<uint32_t> corners = true_corners(merged);
@@ -193,13 +198,14 @@ double farthest_outside(const std::vector<Vector> &points, const std::vector<Pol
 /* Flat hulls may lose points that matter; the tolerance is reduced until they are kept. */
 std::vector<Polygon> find_faces(const std::vector<Vector> &points, double tolerance, const std::string &where)
 {
-  std::vector<uint32_t> all(points.size());
-  std::iota(all.begin(), all.end(), 0u);
-  const std::vector<Polygon> exact = faces_of(points, all, 0);
-  if (!exact.empty())
+  ExactHull exact;
+  exact.points.resize(points.size());
+  std::iota(exact.points.begin(), exact.points.end(), 0u);
+  exact.faces = faces_of(points, exact.points, 0);
+  if (!exact.faces.empty())
     for (double within : {tolerance, tolerance / 4, tolerance / 16, tolerance / 64, tolerance / 1024, 0.0}) {
-      std::vector<Polygon> faces = simplified(points, named_by(exact), within);
-      if (!faces.empty() && farthest_outside(points, exact, faces) <= hull_outside * tolerance) return faces;
+      std::vector<Polygon> faces = simplified(points, exact, within);
+      if (!faces.empty() && farthest_outside(points, exact.faces, faces) <= hull_outside * tolerance) return faces;
     }
   throw InputError(
       fmt::format("{}: no convex hull of these {} points: roundings leave its surface open", where, points.size()));

@@ -3,9 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <tuple>
-#include <unordered_map>
 #include <unordered_set>
+#include <utility>
 
 namespace tandem {
 namespace {
@@ -34,28 +35,29 @@ bool is_convex(const std::vector<Vector> &points, const Polygon &polygon, const 
   return true;
 }
 
-/* The same cycle of corners, beginning at `start`. */
-Polygon started_at(const Polygon &face, uint32_t start)
+/* Appends all corners of the cycle but `start`, beginning with the next one. */
+void append_after(Polygon &to, const Polygon &face, uint32_t start)
 {
-  Polygon result = face;
-  std::rotate(result.begin(), std::find(result.begin(), result.end(), start), result.end());
-  return result;
+  const auto at = std::find(face.begin(), face.end(), start);
+  to.insert(to.end(), at + 1, face.end());
+  to.insert(to.end(), face.begin(), at);
 }
 
 class FaceMerger {
 public:
   FaceMerger(const std::vector<Vector> &points, std::vector<Polygon> faces, double tolerance)
-      : points_(points), faces_(std::move(faces)), tolerance_(tolerance)
+      : points_(points), faces_(std::move(faces)), part_of_(faces_.size()), joins_(faces_.size()), tolerance_(tolerance)
   {
-    for (uint32_t face = 0; face < faces_.size(); ++face) claim(face);
+    std::iota(part_of_.begin(), part_of_.end(), 0u);
   }
 
   std::vector<Polygon> merge()
   {
     std::vector<Candidate> candidates = flattest_first();
     for (bool changed = true; changed;) {
-      const auto kept =
-          std::remove_if(candidates.begin(), candidates.end(), [this](const Candidate &c) { return join(c.v0, c.v1); });
+      auto kept = candidates.begin();
+      for (Candidate &edge : candidates)
+        if (!join(edge)) *kept++ = edge;
       changed = kept != candidates.end();
       candidates.erase(kept, candidates.end());
     }
@@ -64,44 +66,64 @@ public:
   }
 
 private:
+  /* An edge from v0 to v1, with the faces that had it at first. */
   struct Candidate {
     double bend; /* 1 - cosine between the normals */
-    uint32_t v0, v1;
+    uint32_t v0, v1, left, right;
+    uint64_t joins = no_try; /* of both faces when it was tried */
     bool operator<(const Candidate &o) const { return std::tie(bend, v0, v1) < std::tie(o.bend, o.v0, o.v1); }
   };
-
-  void claim(uint32_t face)
-  {
-    const Polygon &polygon = faces_[face];
-    for (size_t i = 0; i < polygon.size(); ++i)
-      face_left_of_[directed(polygon[i], polygon[(i + 1) % polygon.size()])] = face;
-  }
+  static constexpr uint64_t no_try = UINT64_MAX;
 
   std::vector<Candidate> flattest_first() const
   {
+    struct Side {
+      uint32_t low, high;
+      bool downward; /* a face has it from high to low */
+      uint32_t face;
+      auto operator<=>(const Side &) const = default;
+    };
     std::vector<Vector> normals;
-    for (const Polygon &face : faces_) normals.push_back(newell_normal(points_, face).normalized());
-    std::vector<Candidate> candidates;
-    for (uint32_t face = 0; face < faces_.size(); ++face)
+    std::vector<Side> sides;
+    for (uint32_t face = 0; face < faces_.size(); ++face) {
+      normals.push_back(newell_normal(points_, faces_[face]).normalized());
       for (size_t i = 0; i < faces_[face].size(); ++i) {
         const uint32_t v0 = faces_[face][i], v1 = faces_[face][(i + 1) % faces_[face].size()];
-        if (v0 < v1) candidates.push_back({1 - normals[face].dot(normals[face_left_of_.at(directed(v1, v0))]), v0, v1});
+        sides.push_back({std::min(v0, v1), std::max(v0, v1), v0 > v1, face});
       }
+    }
+    std::sort(sides.begin(), sides.end());
+    std::vector<Candidate> candidates;
+    for (size_t side = 0; side + 1 < sides.size(); side += 2) {
+      const uint32_t left = sides[side].face, right = sides[side + 1].face;
+      candidates.push_back({1 - normals[left].dot(normals[right]), sides[side].low, sides[side].high, left, right});
+    }
     std::sort(candidates.begin(), candidates.end());
     return candidates;
   }
 
-  /* True if the edge was removed. */
-  bool join(uint32_t v0, uint32_t v1)
+  /* The face of which the given one is a part by now. */
+  uint32_t present(uint32_t face)
   {
-    const uint32_t left = face_left_of_.at(directed(v0, v1)), right = face_left_of_.at(directed(v1, v0));
-    Polygon joined = started_at(faces_[left], v1);
-    const Polygon other = started_at(faces_[right], v0);
-    joined.insert(joined.end(), other.begin() + 1, other.end() - 1);
-    if (!acceptable(joined)) return false;
-    faces_[left] = std::move(joined);
-    faces_[right].clear();
-    claim(left);
+    while (part_of_[face] != face) face = part_of_[face] = part_of_[part_of_[face]];
+    return face;
+  }
+
+  /* True if the edge was removed. Two faces that could not be joined still cannot while they are the same. */
+  bool join(Candidate &edge)
+  {
+    const uint32_t left = present(edge.left), right = present(edge.right);
+    const uint64_t joins = uint64_t{joins_[left]} + joins_[right];
+    if (std::exchange(edge.joins, joins) == joins) return false;
+    joined_.assign(1, edge.v1);
+    append_after(joined_, faces_[left], edge.v1);
+    append_after(joined_, faces_[right], edge.v0);
+    joined_.pop_back(); /* v1 again */
+    if (!acceptable(joined_)) return false;
+    faces_[left].assign(joined_.begin(), joined_.end());
+    faces_[right] = {};
+    part_of_[right] = left;
+    joins_[left] += joins_[right] + 1;
     return true;
   }
 
@@ -115,8 +137,9 @@ private:
 
   const std::vector<Vector> &points_;
   std::vector<Polygon> faces_;
-  std::unordered_map<uint64_t, uint32_t> face_left_of_; /* never iterated over, because its order differs between
-                                                           libraries */
+  std::vector<uint32_t> part_of_; /* by face: one that it was joined to, or itself */
+  std::vector<uint32_t> joins_;   /* by face: how many it has come from */
+  Polygon joined_;                /* the last one tried */
   double tolerance_;
 };
 

@@ -3,7 +3,6 @@
 #include "host/geometry/quickhull.h"
 
 #include <algorithm>
-#include <unordered_map>
 #include <utility>
 
 namespace tandem {
@@ -55,7 +54,9 @@ class Quickhull {
 public:
   Quickhull(const std::vector<Vector> &points, double within) : within_(within / hull_grid)
   {
+    places_.reserve(points.size());
     for (const Vector &p : points) places_.push_back(place_of(p));
+    starting_at_.resize(places_.size());
   }
 
   std::vector<Polygon> run()
@@ -124,11 +125,11 @@ private:
     return static_cast<uint32_t>(faces_.size() - 1);
   }
 
-  /* The distance from the face's plane in units of the grid. It is rounded, but positive exactly if the point is
-   * above. */
-  double distance(const Face &face, uint32_t point) const
+  /* By more than `within`. The distance is rounded, but positive exactly if the point is above the plane. */
+  bool is_above(const Face &face, uint32_t point) const
   {
-    return static_cast<double>(face.plane.height(places_[point])) / face.normal_length;
+    const Wide height = face.plane.height(places_[point]);
+    return height > 0 && static_cast<double>(height) / face.normal_length > within_;
   }
 
   /* Assigns each point to the first face from `first` on that it is above. A point that is above no face is
@@ -137,7 +138,7 @@ private:
   {
     for (const uint32_t point : points)
       for (size_t face = first; face < faces_.size(); ++face)
-        if (distance(faces_[face], point) > within_) {
+        if (is_above(faces_[face], point)) {
           faces_[face].above.push_back(point);
           break;
         }
@@ -187,14 +188,12 @@ private:
     std::vector<uint32_t> points;
     const std::vector<Edge> border = remove_seen(seen, point, points);
     const size_t first = faces_.size();
-    std::unordered_map<uint32_t, uint32_t> starting_at; /* never iterated over, because its order differs between
-                                                           libraries */
     for (const auto &[from, to, hidden] : border) {
-      starting_at[from] = add_face({from, to, point}, {hidden, 0, 0});
-      set_neighbour(hidden, to, starting_at[from]);
+      starting_at_[from] = add_face({from, to, point}, {hidden, 0, 0});
+      set_neighbour(hidden, to, starting_at_[from]);
     }
     for (size_t face = first; face < faces_.size(); ++face) {
-      const uint32_t next = starting_at.at(faces_[face].corners[1]);
+      const uint32_t next = starting_at_[faces_[face].corners[1]];
       faces_[face].neighbours[1] = next;
       faces_[next].neighbours[2] = static_cast<uint32_t>(face);
     }
@@ -205,6 +204,7 @@ private:
   double within_; /* in units of the grid */
   std::vector<Place> places_;
   std::vector<Face> faces_;
+  std::vector<uint32_t> starting_at_; /* by corner of the last border: the new face of the edge that begins there */
 };
 
 } // namespace

@@ -66,12 +66,12 @@ MassProperties mass_of_children(const Compound &compound)
 Rotation product(const Rotation &a, const Rotation &b) { return product_of(unit(a), unit(b)); }
 Double3 turned(const Rotation &rotation, const Double3 &v) { return array_of(turn(unit(rotation), vector_of(v))); }
 
-/* Repeats the hull of its own vertices until it no longer changes: the vertices alone then determine it, faces
+/* Repeats the hull of its own vertices until it leaves none of them out: the vertices alone then determine it, faces
  * included, and a scene file stores only them. */
 Shape hull_shape(std::span<const Vec3> points, const std::string &where)
 {
   ConvexHull hull = convex_hull(points, where);
-  for (size_t before = 0; before != hull.vertices.size();) {
+  for (size_t before = distinct(points).points.size(); before != hull.vertices.size();) {
     before = hull.vertices.size();
     hull = convex_hull(hull.vertices, where);
   }
