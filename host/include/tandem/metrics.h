@@ -36,7 +36,8 @@ struct JointErrorSummary {
 TANDEM_API JointErrorSummary summary_of(std::span<const JointError> errors);
 
 /* How far the coordinates of each coupling are from what it holds, in rad or m of joint_a's; of a rope, how much too
- * long its parts are. A gear or rack that has skipped a tooth is where it belongs. */
+ * long its parts are. An angle is known but for whole turns, so a gear or rack that has skipped a tooth is where it
+ * belongs, and so is a mimic of hinges without limits that is off by whole turns of these. */
 TANDEM_API std::vector<double> coupling_errors(const Scene &scene, const PreciseBodies &states);
 
 /* Distances between simulated and true poses over the dynamic bodies, accumulated over any number of moments. */
