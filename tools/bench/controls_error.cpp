@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include <fmt/format.h>
 
 #include <tandem/worlds.h>
 
 #include "host/base/random.h"
+#include "host/scene/shape_bounds.h"
 #include "tools/command/progress.h"
 
 namespace tandem {
@@ -20,8 +20,11 @@ constexpr uint32_t compared_intervals[] = {2, 4, 8, 20};
 constexpr uint32_t intervals_of_run = 20;
 constexpr uint32_t refinements[] = {1, 2, 16, 32}; /* of the step; the last run has converged */
 
-/* The centres of mass of the bodies that are compared, in m: [time][world * bodies + body]. */
-using Centers = std::vector<std::vector<Point>>;
+/* Of a run at one time. */
+struct Moment {
+  std::vector<Point> centers;  /* of mass of the bodies that are compared, in m: [world * bodies + body] */
+  std::vector<bool> is_finite; /* by world: bodies in quarantine stand still, which would count as a small error */
+};
 
 std::vector<uint32_t> compared_bodies(const Scene &scene)
 {
@@ -36,6 +39,20 @@ std::vector<uint32_t> compared_bodies(const Scene &scene)
   return bodies;
 }
 
+/* The diagonal of a box around the bodies that are compared, with their shapes, in m. */
+double size_of(const Scene &scene, std::span<const uint32_t> bodies)
+{
+  Point lower, upper;
+  lower.fill(INFINITY), upper.fill(-INFINITY);
+  for (const uint32_t body : bodies)
+    for (size_t k = 0; k < 3; ++k) {
+      const double radius = double{bounding_radius(scene, scene.bodies[body])};
+      lower[k] = std::min(lower[k], scene.bodies[body].position[k] - radius);
+      upper[k] = std::max(upper[k], scene.bodies[body].position[k] + radius);
+    }
+  return std::hypot(upper[0] - lower[0], upper[1] - lower[1], upper[2] - lower[2]);
+}
+
 /* Gives every world the same controls in each run, whatever its step is. */
 class RefinedRuns {
 public:
@@ -47,25 +64,25 @@ public:
         progress_(fmt::format("error of {} worlds", worlds), total_steps())
   {}
 
-  Centers run(uint32_t refinement)
+  std::vector<Moment> run(uint32_t refinement)
   {
     Settings settings = settings_;
     settings.step /= static_cast<float>(refinement);
     Worlds worlds(scene_, worlds_, settings, placement_);
     worlds.choose_controls(actuators_);
     Random random(1);
-    Centers centers;
+    std::vector<Moment> moments;
     for (uint32_t interval = 1; interval <= intervals_of_run; ++interval) {
       worlds.set_controls(drawn_controls(random));
       advance(worlds, steps_of_interval_ * refinement);
       const bool is_compared = std::find(std::begin(compared_intervals), std::end(compared_intervals), interval) !=
                                std::end(compared_intervals);
-      if (is_compared) centers.push_back(centers_of(worlds));
+      if (is_compared) moments.push_back(moment_of(worlds));
     }
-    check_finite(worlds);
-    return centers;
+    return moments;
   }
   size_t bodies() const { return bodies_.size(); }
+  double size() const { return size_of(scene_, bodies_); }
 
 private:
   uint64_t total_steps() const
@@ -89,22 +106,16 @@ private:
       progress_.update(++done_);
     }
   }
-  std::vector<Point> centers_of(Worlds &worlds) const
+  Moment moment_of(Worlds &worlds) const
   {
     const std::vector<BodyState> states = worlds.bodies();
-    std::vector<Point> centers;
-    for (uint32_t world = 0; world < worlds_; ++world)
+    Moment moment;
+    for (uint32_t world = 0; world < worlds_; ++world) {
+      moment.is_finite.push_back(worlds.quarantined(world).empty());
       for (const uint32_t body : bodies_)
-        centers.push_back(states[size_t{world} * worlds.bodies_of_world() + body].position);
-    return centers;
-  }
-  /* Bodies in quarantine stand still, which would count as a small error. */
-  static void check_finite(Worlds &worlds)
-  {
-    const uint32_t bodies = worlds.statistics().nonfinite;
-    if (bodies > 0)
-      throw std::runtime_error(fmt::format("--error: {} bodies ceased to be finite with a step of {:g} ms", bodies,
-                                           1e3 * worlds.settings().step));
+        moment.centers.push_back(states[size_t{world} * worlds.bodies_of_world() + body].position);
+    }
+    return moment;
   }
 
   const Scene &scene_;
@@ -137,29 +148,49 @@ double percentile_of(const std::vector<double> &sorted, double share)
   return sorted[static_cast<size_t>(std::max(rank, 1.0)) - 1];
 }
 
-DistanceOfWorlds distance_of_worlds(std::span<const Point> one, std::span<const Point> other, size_t bodies)
+DistanceOfWorlds distance_of_worlds(const Moment &one, const Moment &other, size_t bodies, double size)
 {
   std::vector<double> distances;
-  for (size_t first = 0; first < one.size(); first += bodies)
-    distances.push_back(1e3 * root_mean_square_distance(one.subspan(first, bodies), other.subspan(first, bodies)));
+  DistanceOfWorlds result{NAN, NAN, 0};
+  for (size_t world = 0; world < one.is_finite.size(); ++world) {
+    const auto centers_in = [&](const Moment &moment) {
+      return std::span(moment.centers).subspan(world * bodies, bodies);
+    };
+    const double distance = root_mean_square_distance(centers_in(one), centers_in(other));
+    if (one.is_finite[world] && other.is_finite[world] && distance <= size) distances.push_back(1e3 * distance);
+    else ++result.left;
+  }
+  if (distances.empty()) return result;
   std::sort(distances.begin(), distances.end());
-  return {percentile_of(distances, 0.5), percentile_of(distances, 0.9)};
+  result.median = percentile_of(distances, 0.5);
+  result.ninetieth = percentile_of(distances, 0.9);
+  return result;
+}
+
+std::string cell_of(const DistanceOfWorlds &distance)
+{
+  const std::string left = distance.left > 0 ? fmt::format("{} left", distance.left) : "";
+  if (std::isnan(distance.median)) return left;
+  const std::string rest = fmt::format("{:.3f} ({:.3f})", distance.median, distance.ninetieth);
+  return left.empty() ? rest : fmt::format("{}, {}", rest, left);
 }
 
 std::vector<std::string> cells_of(const ErrorOfStep &step)
 {
   std::vector<std::string> cells = {fmt::format("{:g}", 1e3 * step.step)};
-  for (const DistanceOfWorlds &distance : step.distances)
-    cells.push_back(fmt::format("{:.3f} ({:.3f})", distance.median, distance.ninetieth));
+  for (const DistanceOfWorlds &distance : step.distances) cells.push_back(cell_of(distance));
   return cells;
 }
 
 Json json_of_distances(const ErrorOfStep &step, const std::vector<double> &times)
 {
   Json list = Json::array();
-  for (size_t k = 0; k < times.size(); ++k)
+  for (size_t k = 0; k < times.size(); ++k) {
+    const auto &[median, ninetieth, left] = step.distances[k];
+    const auto number = [](double x) { return std::isnan(x) ? Json() : Json(x); };
     list.push_back(
-        {{"seconds", times[k]}, {"median", step.distances[k].median}, {"ninetieth", step.distances[k].ninetieth}});
+        {{"seconds", times[k]}, {"median", number(median)}, {"ninetieth", number(ninetieth)}, {"left", left}});
+  }
   return list;
 }
 
@@ -175,17 +206,36 @@ ControlsError controls_error(const Scene &scene, std::span<const Actuator> actua
   error.worlds = worlds;
   error.bodies = runs.bodies();
   for (const uint32_t interval : compared_intervals) error.times.push_back(interval_of_controls * interval);
-  std::vector<Centers> centers;
-  for (const uint32_t refinement : refinements) centers.push_back(runs.run(refinement));
-  for (size_t run = 0; run + 1 < centers.size(); ++run) {
+  error.size = runs.size();
+  std::vector<std::vector<Moment>> moments;
+  for (const uint32_t refinement : refinements) moments.push_back(runs.run(refinement));
+  for (size_t run = 0; run + 1 < moments.size(); ++run) {
     ErrorOfStep &step = error.steps.emplace_back();
     step.step = double{settings.step} / refinements[run];
     for (size_t k = 0; k < error.times.size(); ++k)
-      step.distances.push_back(distance_of_worlds(centers[run][k], centers.back()[k], error.bodies));
+      step.distances.push_back(distance_of_worlds(moments[run][k], moments.back()[k], error.bodies, error.size));
   }
   error.converged_step = double{settings.step} / *std::rbegin(refinements);
   return error;
 }
+
+namespace {
+
+/* What the table does not say of worlds that left the range. */
+std::string note_of_those_left(const ControlsError &error)
+{
+  const auto has_left = [](const DistanceOfWorlds &distance) { return distance.left > 0; };
+  const bool any = std::any_of(error.steps.begin(), error.steps.end(), [&](const ErrorOfStep &step) {
+    return std::any_of(step.distances.begin(), step.distances.end(), has_left);
+  });
+  if (!any) return "";
+  return fmt::format("  Worlds left the range, because a body was not finite or they were apart by more than the "
+                     "size of the scene,\n"
+                     "  {:.3g} m; the table counts them and has the median of the rest.\n",
+                     error.size);
+}
+
+} // namespace
 
 std::string text_of(const ControlsError &error)
 {
@@ -200,8 +250,9 @@ std::string text_of(const ControlsError &error)
       "  The last step is the floor: it tells how far the run compared with has converged. Falling "
       "robots are chaotic,\n"
       "  so late distances tell that runs part by themselves; only the early ones tell the error of the "
-      "step.\n",
-      1e3 * error.converged_step, error.bodies, error.worlds, 1e3 * interval_of_controls, table.text("    "));
+      "step.\n{}",
+      1e3 * error.converged_step, error.bodies, error.worlds, 1e3 * interval_of_controls, table.text("    "),
+      note_of_those_left(error));
 }
 
 Json json_of(const ControlsError &error)
@@ -212,6 +263,7 @@ Json json_of(const ControlsError &error)
   return {{"worlds", error.worlds},
           {"bodies", error.bodies},
           {"controls_held_ms", 1e3 * interval_of_controls},
+          {"size_m", error.size},
           {"converged_step_ms", 1e3 * error.converged_step},
           {"steps", steps}};
 }
