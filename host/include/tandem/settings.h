@@ -58,7 +58,7 @@ constexpr uint32_t automatic_substeps = UINT32_MAX;
 
 /* All choices that can change the result, and those that change only the cost. */
 struct Settings {
-  float step = 1.0f / 60.0f; /* s, > 0 */
+  float step = 1.0f / 60.0f; /* s, > 0. It also sets how far ahead contacts are made, which slop has the rule of */
   uint32_t substeps = 4;     /* 1 .. 1000, or automatic_substeps */
   uint32_t iterations = 1;   /* solver passes a substep, 1 .. 1000 */
   Solver solver = Solver::soft_step;
@@ -91,11 +91,19 @@ struct Settings {
   float joint_hertz = 60.0f;           /* Hz, frequency of soft joints; used up to joint_hertz_of(); without meaning
                                           for xpbd */
   float joint_damping_ratio = 2.0f;
-  float push_speed = 3.0f;             /* m/s, the largest speed at which penetration is removed */
-  float slop = 0.005f;                 /* m, penetration left in place so that contacts persist */
-  float slop_share = 0.05f;            /* of the smallest half extent of a pair: an upper limit of its slop */
-  float restitution_speed = 1.0f;      /* m/s, slower impacts have no restitution */
-  float hit_speed = 1.0f;              /* m/s, >= 0: contacts that begin slower are no hits (World::hit_events) */
+  float push_speed = 3.0f; /* m/s, the largest speed at which penetration is removed */
+  /* m, penetration left in place so that contacts persist. Contacts are made ahead of touching, up to a gap along their
+   * normal of
+   *
+   *   slop * clamp(240 Hz * step, 1, 4)  +  step * (the speed at which the gap closes + each body's spin * its radius)
+   *
+   * which for bodies at rest is 20 mm at 1/60 s and longer, 10 mm at 1/120 s, and 5 mm at 1/240 s and shorter. Neither
+   * the gravity of the step nor the spin of a ball adds to it, and a gap that the motion of the step plainly does not
+   * close may have none. So shorter steps have fewer contacts that touch nothing. */
+  float slop = 0.005f;
+  float slop_share = 0.05f;       /* of the smallest half extent of a pair: an upper limit of its slop */
+  float restitution_speed = 1.0f; /* m/s, slower impacts have no restitution */
+  float hit_speed = 1.0f;         /* m/s, >= 0: contacts that begin slower are no hits (World::hit_events) */
 };
 
 /* The frequency that soft joints have, Hz: at most 0.28 of the substep rate, because some trees of links tremble from
