@@ -10,10 +10,6 @@
 #include <algorithm>
 #include <utility>
 
-#include <fmt/format.h>
-
-#include <tandem/error.h>
-
 #include "host/pipeline/batching/batcher.h"
 #include "host/pipeline/broadphases/broadphase.h"
 #include "host/pipeline/pair_lists.h"
@@ -194,23 +190,13 @@ private:
     const BatcherRow &batcher = row_of(settings().batching);
     run(Kernel::match_pairs, {batcher.keeps_colors ? 1u : 0u});
     batcher.launch(*this);
-    const bool by_world = has(FEATURE_WORLDS) && plan().colors > COLOR_LIMIT, by_link = has_links();
-    if (by_link && by_world) refuse_overflow_beside_links();
-    if (by_link) run(Kernel::link_color_keys);
-    else if (by_world) find_color_keys_by_world();
+    const bool by_world = has_worlds_with_overflow(), by_link = has_links();
+    if (by_world) find_color_keys_by_world();
+    else if (by_link) run(Kernel::link_color_keys);
     else run(Kernel::color_keys);
     sort(Buffer::sort_key, Buffer::sort_value, COUNT_PAIRS, plan().capacity_pairs, 0, 8);
-    run(by_link ? Kernel::link_color_starts : by_world ? Kernel::world_color_starts : Kernel::color_starts);
+    run(by_world ? Kernel::world_color_starts : by_link ? Kernel::link_color_starts : Kernel::color_starts);
     if (settings().check) launch_check(*this);
-  }
-
-  /* Worlds with overflow constraints take further passes, and the order that has theirs apart has no links apart. */
-  [[noreturn]] static void refuse_overflow_beside_links()
-  {
-    throw InputError(
-        fmt::format("in a batch with articulations, a body has more than {} contacts of others than links; "
-                    "make a world of its own of that scene",
-                    COLOR_LIMIT));
   }
 
   void find_color_keys_by_world()

@@ -23,6 +23,9 @@ public:
   /* A scene may lack articulations though every feature is built. */
   bool has_links() const { return has(FEATURE_ARTICULATIONS) && plan_.known[COUNT_ARTICULATIONS] > 0; }
 
+  /* Whether this is a batch of worlds of which some may have overflow constraints, which take further passes. */
+  bool has_worlds_with_overflow() const { return has(FEATURE_WORLDS) && plan_.colors > COLOR_LIMIT; }
+
   /* Launches a kernel over the items of its row; a kernel of groups only if the scene alone determines their number. */
   void run(Kernel kernel, const Values &values = {}, const Slots &slots = {});
   /* Launches a kernel over [counts[first], counts[last]). */

@@ -14,6 +14,7 @@
 #include "shared/argument_groups.h"
 #include "shared/articulations/free_motion.h"
 #include "shared/batching/nodes.h"
+#include "shared/solve/pass.h"
 
 /* Records of tree_contact and of tree_colors (tree_contacts.h). */
 #define TREE_COLORS 64u
@@ -48,6 +49,25 @@ SHARED articulation articulation_at(read_links links, write_link_states states, 
   t.number = number;
   t.most_links = 0u;
   while (any_of((uint_lanes)t.most_links < t.links)) ++t.most_links;
+  return t;
+}
+
+/* --- further passes ------------------------------------------------------------------------------------------- */
+/* Whether the tree takes part in the pass: in PASS_FURTHER if order_tree_contacts has noted so of its world. */
+SHARED mask takes_pass(write_link_states states, uint_lanes tree, uint pass)
+{
+  uint_lanes one = (uint_lanes)1u;
+  return (pass == (uint)PASS_FURTHER ? load_uint(states.colors, TREE_COLOR_WORDS * tree + 1u) : one) != (uint_lanes)0u;
+}
+
+/* What the rows of a pass look at. */
+SHARED uint kind_of_pass(uint pass) { return pass == (uint)PASS_FURTHER ? (uint)PASS_BIASED : pass; }
+
+/* A tree that does not take part has no links. */
+SHARED articulation articulation_in_pass(read_links links, write_link_states states, uint_lanes number, uint pass)
+{
+  articulation t = articulation_at(links, states, number);
+  t.links = choose(takes_pass(states, number, pass), t.links, (uint_lanes)0u);
   return t;
 }
 

@@ -382,10 +382,12 @@ SHARED void solve_link_contacts_item(GLOBAL const Parameters *parameters, read_c
                                      item_index i)
 {
   uint_lanes a = load_uint(contacts.a, i), b = load_uint(contacts.b, i), link = choose(is_link(links.of_body, a), a, b);
-  mask wanted = is_mixed(states, articulation_of_body(links.of_body, link));
+  uint_lanes tree = articulation_of_body(links.of_body, link);
+  mask wanted = is_mixed(states, tree) & takes_pass(states, tree, pass);
   if (any_of(wanted))
     solve_link_contact_at(parameters, contacts, patches, bodies, links, counts, states, contact_impulses,
-                          solver_velocity, warm_start_impulse, pass, choose(wanted, i, (uint_lanes)INDEX_NONE));
+                          solver_velocity, warm_start_impulse, kind_of_pass(pass),
+                          choose(wanted, i, (uint_lanes)INDEX_NONE));
 }
 
 #ifndef TANDEM_LANES /* ITEM kernels take one item at a time */

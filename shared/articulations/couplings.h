@@ -194,11 +194,11 @@ SHARED void solve_tree_couplings_item(GLOBAL const Parameters *parameters, read_
 {
   uint_lanes tree = i, first = load_uint(couplings.of_tree, 2u * tree),
              count = load_uint(couplings.of_tree, 2u * tree + 1u);
-  articulation t = articulation_at(links, states, tree);
+  articulation t = articulation_in_pass(links, states, tree, pass);
   count = choose(has_links(&t), count, (uint_lanes)0u);
   if (!any_of(count > 0u)) return;
   if (pass != (uint)PASS_WARM_STARTING) {
-    solve_couplings_of_tree(parameters, &t, couplings, first, count, impulse, pass);
+    solve_couplings_of_tree(parameters, &t, couplings, first, count, impulse, kind_of_pass(pass));
     write_velocities(links, &t, solver_velocity);
   }
   if (pass == (uint)PASS_RELAXING || pass == (uint)PASS_WARM_STARTING)

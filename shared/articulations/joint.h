@@ -25,6 +25,7 @@
 #define LINK_CLOSING R(2.0) /* m/s, rad/s: no faster, because the pull of a joint that stays open bends the tree */
 
 typedef struct {
+  mask wanted; /* others push nothing and write nothing */
   pushed_pair ends;
   joint shape;
   joint_frames frames;
@@ -32,10 +33,17 @@ typedef struct {
   symmetric6 inverse_of_ancestor; /* inertia */
 } link_joint;
 
-SHARED pushed_side side_of_joint(read_links links, write_link_states states, joint_side s, uint pass)
+SHARED pushed_side side_of_joint(mask wanted, read_links links, write_link_states states, joint_side s, uint pass)
 {
-  mask in_table = is_link(links.of_body, s.body) & !s.is_world;
+  mask in_table = wanted & is_link(links.of_body, s.body) & !s.is_world;
   return pushed_side_of(in_table, links, states, s.body, s.velocity, s.inertia, s.locks, pass);
+}
+
+/* The tree of the joint is that of either side, since both are of one world. */
+SHARED mask joint_takes_pass(read_links links, write_link_states states, joint_side a, joint_side b, uint pass)
+{
+  mask is_a = is_link(links.of_body, a.body) & !a.is_world;
+  return takes_pass(states, articulation_of_body(links.of_body, choose(is_a, a.body, b.body)), pass);
 }
 
 SHARED uint_lanes common_ancestor(mask wanted, const articulation *t, uint_lanes k, uint_lanes other)
@@ -58,8 +66,11 @@ SHARED link_joint load_link_joint(GLOBAL const Parameters *parameters, read_join
   link_joint j;
   j.shape = load_joint(parameters, joints, bodies, solver_velocity, i);
   j.frames = frames_of(parameters, j.shape, joints, i);
-  pushed_side a = side_of_joint(links, states, j.shape.a, pass);
-  pushed_side b = side_of_joint(links, states, j.shape.b, pass);
+  j.wanted = joint_takes_pass(links, states, j.shape.a, j.shape.b, pass);
+  j.shape.a.velocity.inverse_mass = zero_if(!j.wanted, j.shape.a.velocity.inverse_mass);
+  j.shape.b.velocity.inverse_mass = zero_if(!j.wanted, j.shape.b.velocity.inverse_mass);
+  pushed_side a = side_of_joint(j.wanted, links, states, j.shape.a, pass);
+  pushed_side b = side_of_joint(j.wanted, links, states, j.shape.b, pass);
   j.ends = pushed_pair_of(a, b);
   j.ancestor = (uint_lanes)0u;
   j.inverse_of_ancestor = zero_symmetric6();
@@ -149,7 +160,7 @@ SHARED void solve_link_axes(GLOBAL const Parameters *parameters, link_joint *j, 
 {
   for (uint k = 0; k < parameters->joint_axes; ++k) {
     joint_axis axis = load_axis(parameters, axes, k, i);
-    mask wanted = axis.kind != (uint_lanes)(uint)JOINT_AXIS_NONE;
+    mask wanted = j->wanted & (axis.kind != (uint_lanes)(uint)JOINT_AXIS_NONE);
     if (!any_of(wanted)) continue;
     vec4 kept = load_float4(impulse, joint_plane(parameters, k) + i);
     joint_coordinate at = coordinate_of(j->shape, j->frames, axis.kind);
@@ -274,8 +285,8 @@ SHARED void solve_link_joint(GLOBAL const Parameters *parameters, link_joint *j,
   joint_impulses p = load_joint_impulses(parameters, impulses.linear, impulses.angular, i);
   if (HAS_FEATURE(parameters, JOINT_AXES)) solve_link_axes(parameters, j, axes, impulses.axis, pass, i);
   solve_link_blocks(parameters, j, &p, pass);
-  store_float4(impulses.linear, i, extend(p.linear, R(0.0)));
-  if (HAS_FEATURE(parameters, JOINT_FRAMES)) store_float4(impulses.angular, i, extend(p.angular, R(0.0)));
+  store_float4_if(j->wanted, impulses.linear, i, extend(p.linear, R(0.0)));
+  if (HAS_FEATURE(parameters, JOINT_FRAMES)) store_float4_if(j->wanted, impulses.angular, i, extend(p.angular, R(0.0)));
   if (pass != (uint)PASS_RELAXING) return;
   row_of_pair all = row_of_joint_impulses(parameters, j, axes, impulses, p, i);
   add_warm_start_of_pair(&j->ends, all, parameters->inverse_substep, warm_start_impulse);
@@ -294,7 +305,7 @@ SHARED void solve_link_joints_item(GLOBAL const Parameters *parameters, read_joi
     add_warm_start_of_pair(&j.ends, all, parameters->inverse_substep, warm_start_impulse);
     return;
   }
-  solve_link_joint(parameters, &j, axes, impulses, warm_start_impulse, pass, i);
+  solve_link_joint(parameters, &j, axes, impulses, warm_start_impulse, kind_of_pass(pass), i);
   store_pair(&j.ends, solver_velocity);
 }
 

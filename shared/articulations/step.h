@@ -71,9 +71,9 @@ SHARED void accelerate_articulations_item(GLOBAL const Parameters *parameters, r
 SHARED void solve_articulations_item(GLOBAL const Parameters *parameters, read_links links, write_link_states states,
                                      GLOBAL float4 *solver_velocity, uint pass, item_index i)
 {
-  articulation t = articulation_at(links, states, (uint_lanes)i);
+  articulation t = articulation_in_pass(links, states, (uint_lanes)i, pass);
   if (pass == (uint)PASS_BOUNCING) settle_tree(&t);
-  else solve_tree_rows(parameters, &t, pass);
+  else solve_tree_rows(parameters, &t, kind_of_pass(pass));
   write_velocities(links, &t, solver_velocity);
 }
 

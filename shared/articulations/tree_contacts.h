@@ -78,8 +78,17 @@ SHARED void list_tree_contacts_item(read_contacts contacts, read_links links, GL
   ATOMIC_OR(states.colors + TREE_COLOR_WORDS * tree + (color >> 5u), 1u << (color & 31u));
 }
 
-/* An item is a tree. */
-SHARED void order_tree_contacts_item(write_link_states states, uint i)
+/* Whether the world of a tree has overflow constraints. */
+SHARED uint overflows_of_tree(read_links links, read_joint_worlds worlds, write_link_states states, uint tree)
+{
+  articulation t = articulation_at(links, states, tree);
+  return worlds.overflows[worlds.of_body[2u * body_of_link(links, &t, 0u)]];
+}
+
+/* An item is a tree. by_world: whether some world of a batch takes further passes; those of the tree's own are noted
+ * then. */
+SHARED void order_tree_contacts_item(read_links links, read_joint_worlds worlds, write_link_states states,
+                                     uint by_world, uint i)
 {
   GLOBAL uint *colors = states.colors + TREE_COLOR_WORDS * i;
   GLOBAL uint *contact = states.contact + TREE_COLORS * i;
@@ -87,7 +96,8 @@ SHARED void order_tree_contacts_item(write_link_states states, uint i)
   for (uint word = 0u; word < 2u; ++word)
     for (uint color = 32u * word, left = colors[word]; left != 0u; ++color, left >>= 1u)
       if (left & 1u) contact[listed++] = contact[color];
-  colors[0] = colors[1] = 0u;
+  colors[0] = 0u;
+  colors[1] = by_world ? overflows_of_tree(links, worlds, states, i) : 0u;
   colors[3] = colors[2] == 0u ? listed : 0u;
 }
 #endif
@@ -210,7 +220,7 @@ SHARED void solve_tree_contacts_item(GLOBAL const Parameters *parameters, read_c
 {
   uint_lanes tree = i, listed = load_uint(states.colors, TREE_COLOR_WORDS * tree + 3u);
   if (!any_of(listed > 0u)) return;
-  articulation t = articulation_at(links, states, tree);
+  articulation t = articulation_in_pass(links, states, tree, pass);
   listed = choose(has_links(&t), listed, (uint_lanes)0u);
   mask touches = listed > 0u, pushed = touches & !touches;
   uint moves = pass != (uint)PASS_WARM_STARTING ? 1u : 0u;
@@ -223,8 +233,8 @@ SHARED void solve_tree_contacts_item(GLOBAL const Parameters *parameters, read_c
     uint_lanes at = choose(wanted, load_uint(states.contact, TREE_COLORS * tree + n), (uint_lanes)0u);
     link_contact c = load_tree_contact(wanted, parameters, &own, contacts, patches, bodies, links, solver_velocity, at);
     if (moves) see_by_paths(&own, &c, &z);
-    run_pass_of_link_contact(parameters, &c, patches, planes_of(counts), contact_impulses, warm_start_impulse, pass,
-                             at);
+    run_pass_of_link_contact(parameters, &c, patches, planes_of(counts), contact_impulses, warm_start_impulse,
+                             kind_of_pass(pass), at);
     mask pushes = wanted & is_push(c.body.pushed);
     if (any_of(pushes)) push_by_paths_if(pushes, &z, c.body.pushed);
     pushed = pushed | pushes;

@@ -1,5 +1,6 @@
 /* Articulations give the serial backend's bits on every backend, in batches of worlds, and from every state that was
  * kept or written down. */
+#include "shared/counts.h"
 #include "tests/host/runtime/opencl/pocl.h"
 #include "tests/host/world/worlds.h"
 #include "tests/parity/articulations.h"
@@ -30,6 +31,18 @@ Scene lone_chain(uint32_t links, BodyType far = BodyType::fixed)
   Scene scene = tree_crowd(1, 0, links);
   add_body(scene, far, sphere_shape(0.1f), {1000, 1000, 0});
   add_body(scene, BodyType::fixed, sphere_shape(0.1f), {0.42 * 5 - 2, 0.6, -1.5});
+  return scene;
+}
+
+/* Beside the scene, a slab with so many boxes on it that its contacts need more colours than there are; only the first
+ * `boxes` lie on it. */
+Scene beside_loaded_slab(Scene scene, uint32_t boxes)
+{
+  add_body(scene, BodyType::dynamic, box_shape(6, 0.25f, 6), {40, 0.25, 0}).mass = 20;
+  for (uint32_t k = 0; k < 81; ++k)
+    add_body(scene, BodyType::dynamic, box_shape(0.2f, 0.2f, 0.2f),
+             {36.0 + k % 9, k < boxes ? 0.7 : 40.0, -4.0 + k / 9});
+  for (Joint &joint : scene.joints) joint.break_force = JointAxis::unlimited;
   return scene;
 }
 
@@ -304,6 +317,27 @@ TEST_CASE("parity on CPU: a world of two trees that touch, in a batch with as ma
   run(alone, 60);
   CHECK(alone.bodies()[1].position[1] == Approx(0.5).margin(0.02));
   CHECK(alone.bodies()[2].position[1] == Approx(1.5).margin(0.02));
+}
+
+/* A world with overflow constraints takes further passes, in which its trees, its links' joints and its couplings take
+ * part, and those of the other worlds do not. */
+TEST_CASE("parity on CPU: worlds of a batch with trees, of which some have more contacts at a body than colours")
+{
+  Scene joined = joined_trees(5, 6), chain = tree_crowd(7, 4, 70);
+  Random random(3);
+  couple_trees(joined, random);
+  for (const Scene &trees : {joined, chain})
+    for (const std::string backend : {"serial", "tbb:threads=2,lanes=8"}) {
+      CAPTURE(backend);
+      std::vector<Scene> scenes;
+      for (const uint32_t boxes : {81, 9, 75}) scenes.push_back(beside_loaded_slab(trees, boxes));
+      BatchBesideWorlds both(scenes, backend);
+      both.step(20);
+      CHECK(both.alone[0]->statistics().colors > COLOR_LIMIT);
+      CHECK(both.alone[1]->statistics().colors <= COLOR_LIMIT);
+      both.reset({0});
+      both.step(5);
+    }
 }
 
 TEST_CASE("parity on CPU: worlds of a batch whose joints hold links have the bits of worlds alone")

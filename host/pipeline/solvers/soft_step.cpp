@@ -12,7 +12,7 @@ namespace {
 void solve(StepLaunches &step, MassSplit &overflow, uint32_t pass, bool further = false)
 {
   solve_with_joints(step, Kernel::solve_contacts, pass, pass, further);
-  step.for_each_link_color(pass);
+  step.for_each_link_color(further ? uint32_t{PASS_FURTHER} : pass);
   overflow.solve(pass, overflow_iterations);
   solve_rolling(step);
 }
@@ -54,7 +54,7 @@ void list_tree_contacts(StepLaunches &step)
 {
   if (!step.has_links()) return;
   step.run(Kernel::list_tree_contacts);
-  step.run(Kernel::order_tree_contacts);
+  step.run(Kernel::order_tree_contacts, {step.has_worlds_with_overflow()});
 }
 
 } // namespace
