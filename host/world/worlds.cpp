@@ -234,7 +234,10 @@ void Worlds::move_to(std::span<const WorldBody> bodies, std::span<const Pose> po
 
 void Worlds::add_impulses(std::span<const WorldBody> bodies, std::span<const Impulse> impulses)
 {
-  implementation_->world->add_impulses(implementation_->ids_of("add_impulses", bodies), impulses);
+  const std::vector<BodyId> ids = implementation_->ids_of("add_impulses", bodies);
+  implementation_->world->add_impulses(ids, impulses);
+  for (size_t k = 0; k < ids.size(); ++k) /* on a link it acts as a force */
+    if (implementation_->engine().links.has_body(ids[k].index)) implementation_->forced[bodies[k].world] = true;
 }
 
 void Worlds::add_forces(std::span<const WorldBody> bodies, std::span<const Force> forces)

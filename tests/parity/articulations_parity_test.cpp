@@ -319,6 +319,25 @@ TEST_CASE("parity on CPU: a world of two trees that touch, in a batch with as ma
   CHECK(alone.bodies()[2].position[1] == Approx(1.5).margin(0.02));
 }
 
+/* An impulse on a link is a force until the next step, which only a world that has been given one keeps. */
+TEST_CASE("parity on CPU: worlds of a batch of which some links are pushed have the bits of worlds alone")
+{
+  std::vector<Scene> scenes(3, lone_chain(6));
+  BatchBesideWorlds both(scenes, "tbb:threads=2");
+  both.step(3);
+  const Impulse push{{0.5f, 1, 0}, {}, {}};
+  both.batch.add_impulses(std::vector<WorldBody>{{1, 2}, {2, 8}}, std::vector<Impulse>{push, push});
+  both.alone[1]->add_impulse(both.alone[1]->id_of(2), push);
+  both.alone[2]->add_impulse(both.alone[2]->id_of(8), push); /* a stone */
+  both.require_equal();
+  const std::unique_ptr<World> goes_on = both.batch.alone(1, {"serial", {}, false});
+  both.step(3);
+  run(*goes_on, 3);
+  CHECK(goes_on->state_hash() == both.alone[1]->state_hash());
+  both.reset({1});
+  both.step(3);
+}
+
 /* A world with overflow constraints takes further passes, in which its trees, its links' joints and its couplings take
  * part, and those of the other worlds do not. */
 TEST_CASE("parity on CPU: worlds of a batch with trees, of which some have more contacts at a body than colours")
