@@ -487,6 +487,7 @@ std::vector<uint32_t> World::Implementation::distinct_indices(const char *call, 
 void World::Implementation::destroy(std::span<const BodyId> ids)
 {
   distinct_indices("destroy_bodies", ids);
+  settle_joints();
   const std::vector<uint32_t> joints_of_destroyed = joints_of_bodies(slots_of("destroy_bodies", ids));
   refuse_coupled("destroy_bodies", "it cannot be destroyed", joints_of_destroyed);
   refuse_driven("destroy_bodies", "it cannot be destroyed", joints_of_destroyed);

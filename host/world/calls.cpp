@@ -126,6 +126,7 @@ void World::Implementation::settle()
 {
   check_lost();
   restore_bodies(); /* where the last attempt of a step could not */
+  settle_joints();
   if (commands.empty() && force_commands.empty()) return;
   const minicl::ExactFloatingPoint environment;
   buffers.make_ready(sizes());

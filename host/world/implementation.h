@@ -6,6 +6,7 @@
  */
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <map>
 #include <mutex>
@@ -39,6 +40,7 @@
 #include "host/world/joint_impulses.h"
 #include "host/world/joint_order.h"
 #include "host/world/joint_slots.h"
+#include "host/world/pending_joints.h"
 #include "host/world/placed_backends.h"
 #include "host/world/queries.h"
 #include "host/world/shape_slots.h"
@@ -268,6 +270,8 @@ struct World::Implementation {
   void refuse_driven(const char *call, const char *why, std::span<const uint32_t> joints) const;
   void disturb_joined(std::span<const Joint> joints);
   void put_joints(std::vector<Joint> joints, const JointSlots &slots_then, std::span<const uint32_t> changed);
+  void exchange_joints(std::vector<Joint> joints, const JointSlots &slots_then, std::span<const uint32_t> forgotten,
+                       std::vector<uint32_t> recolored);
   JointGraph graph_with(std::vector<Joint> &joints);
   bool fits_tables(const std::vector<Joint> &before, const JointGraph &graph) const;
   void stage_joints_again(StagedUploads &uploads, std::span<const uint32_t> order) const;
@@ -286,6 +290,16 @@ struct World::Implementation {
   std::vector<uint32_t> slots_of_joints(const char *call, std::span<const JointId> ids) const;
   std::vector<uint32_t> list_broken_joints();
   void break_joints(std::span<const uint32_t> broken);
+
+  /* --- joints that wait: pending_joints.cpp ----------------------------------------------------------------------- */
+  const JointSlots &present_joint_slots() const;
+  bool may_wait(std::span<const Joint> joints) const;
+  PendingJoints &joints_to_change(size_t changes);
+  std::vector<JointId> create_joints_later(std::span<const Joint> given);
+  void destroy_joints_later(std::span<const uint32_t> destroyed);
+  std::vector<uint32_t> recolored_by(const PendingJoints &pending) const;
+  void settle_joints();
+  void settle_joints_in_turn();
 
   /* --- what joints do: joint_readings.cpp ------------------------------------------------------------------------- */
   std::vector<JointReading> read_joints(std::span<const JointId> ids);
@@ -384,6 +398,8 @@ struct World::Implementation {
   CouplingGraph coupling_graph;
   JointOrder joint_order;
   JointSlots joint_slots;
+  std::unique_ptr<PendingJoints> pending_joints;  /* null: none wait */
+  std::atomic<bool> joints_wait = false;          /* the same, for what reads beside others */
   JointedLinks links;                             /* of articulations, which stay as they are */
   std::vector<JointBreak> joint_breaks;           /* of the last step */
   uint64_t joints_number = 0, joints_numbers = 0; /* the number of the present joints, and of those so far */

@@ -6,6 +6,8 @@
  *
  *   Scene::joints -> colours, order -> tables of joints          (write_joints)
  *                                   -> all tables, new kernels   (lay_out_anew, host/world/bodies.cpp)
+ *
+ * Joints that are created and destroyed wait for that until a step or a read needs it (pending_joints.h).
  */
 #include <algorithm>
 #include <array>
@@ -137,8 +139,7 @@ void World::Implementation::disturb_joined(std::span<const Joint> joints)
     memory.upload(Buffer::resting_steps, &none, sizeof none, index_of_body[body] * sizeof none);
 }
 
-/* Makes the joints of the scene these, some of which differ from what they were. What may lack memory comes before the
- * first change: contacts that kept a colour which a joint has now would be solved beside it. */
+/* Makes the joints of the scene these, some of which differ from what they were. */
 void World::Implementation::put_joints(std::vector<Joint> joints, const JointSlots &slots_then,
                                        std::span<const uint32_t> changed)
 {
@@ -155,13 +156,24 @@ void World::Implementation::put_joints(std::vector<Joint> joints, const JointSlo
     if (joint < joints.size()) disturbed.push_back(joints[joint]);
   }
   disturb_joined(disturbed);
+  std::vector<uint32_t> forgotten;
+  for (const uint32_t joint : changed)
+    if (joint >= scene.joints.size() || !keeps_impulses(scene.joints[joint], joints[joint])) forgotten.push_back(joint);
+  exchange_joints(std::move(joints), slots_then, forgotten, {});
+}
+
+/* forgotten: joints that lose their impulses; recolored: bodies that had a new colour in between. What may lack memory
+ * comes before the first change: contacts that kept a colour which a joint has now would be solved beside it. */
+void World::Implementation::exchange_joints(std::vector<Joint> joints, const JointSlots &slots_then,
+                                            std::span<const uint32_t> forgotten, std::vector<uint32_t> recolored)
+{
   buffers.make_ready(sizes());
   JointImpulses impulses(memory, joint_order.joints(), joint_graph.axes);
-  for (const uint32_t joint : changed)
-    if (joint >= scene.joints.size() || !keeps_impulses(scene.joints[joint], joints[joint])) impulses.forget(joint);
+  for (const uint32_t joint : forgotten) impulses.forget(joint);
   JointSlots new_slots = slots_then;
   JointGraph graph = graph_with(joints);
-  const std::vector<uint32_t> recolored = bodies_with_new_colors(joint_graph, graph);
+  const std::vector<uint32_t> recolored_now = bodies_with_new_colors(joint_graph, graph);
+  recolored.insert(recolored.end(), recolored_now.begin(), recolored_now.end());
   wake_bodies(recolored, false);
   const std::vector<uint32_t> contact_colors = colors_without(recolored);
   std::string reason = "joints came that the buffers had no room or no tables for";
@@ -235,6 +247,8 @@ std::vector<JointId> World::Implementation::create_joints(std::span<const Joint>
     check_joint_beside_links(links, given[i], i, "create_joints");
   }
   if (given.empty()) return {};
+  if (may_wait(given)) return create_joints_later(given);
+  settle_joints();
   JointSlots new_slots = joint_slots;
   std::vector<Joint> joints = scene.joints;
   std::vector<uint32_t> created;
@@ -250,17 +264,6 @@ std::vector<JointId> World::Implementation::create_joints(std::span<const Joint>
   return ids;
 }
 
-namespace {
-
-Joint vacant_joint()
-{
-  Joint vacant;
-  vacant.enabled = false;
-  return vacant;
-}
-
-} // namespace
-
 void World::Implementation::destroy_joints(std::span<const JointId> ids)
 {
   std::vector<uint32_t> destroyed = slots_of_joints("destroy_joints", ids);
@@ -270,7 +273,8 @@ void World::Implementation::destroy_joints(std::span<const JointId> ids)
   refuse_coupled("destroy_joints", "it cannot be destroyed", destroyed);
   refuse_driven("destroy_joints", "it cannot be destroyed", destroyed);
   refuse_articulated("destroy_joints", "it cannot be destroyed", destroyed);
-  destroy_joints_in(destroyed);
+  if (may_wait({})) destroy_joints_later(destroyed);
+  else destroy_joints_in(destroyed);
 }
 
 void World::Implementation::destroy_joints_in(std::span<const uint32_t> destroyed)
@@ -303,6 +307,7 @@ void World::Implementation::set_joints(std::span<const JointId> ids, std::span<c
   if (ids.size() != given.size())
     throw InputError(fmt::format("set_joints: {} handles and {} joints; one joint for each handle is needed",
                                  ids.size(), given.size()));
+  settle_joints();
   const std::vector<uint32_t> changed = slots_of_joints("set_joints", ids);
   refuse_articulated("set_joints", "set_joint_axes alone can change it", changed);
   std::vector<Joint> joints = scene.joints;
@@ -334,7 +339,7 @@ void World::Implementation::check_joined_bodies(const char *call, size_t entry, 
 std::vector<uint32_t> World::Implementation::slots_of_joints(const char *call, std::span<const JointId> ids) const
 {
   std::vector<uint32_t> found;
-  for (const JointId &id : ids) found.push_back(joint_slots.slot_of(call, id));
+  for (const JointId &id : ids) found.push_back(present_joint_slots().slot_of(call, id));
   return found;
 }
 
@@ -370,6 +375,7 @@ void World::Implementation::set_joint_axes(std::span<const JointId> ids, std::sp
   if (ids.size() != changes.size())
     throw InputError(fmt::format("set_joint_axes: {} handles and {} changes; one change for each handle is needed",
                                  ids.size(), changes.size()));
+  settle_joints();
   const std::vector<uint32_t> changed = slots_of_joints("set_joint_axes", ids);
   std::vector<Joint> joints;
   std::map<uint32_t, size_t> of_slot;

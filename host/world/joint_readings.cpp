@@ -87,9 +87,9 @@ private:
 
 std::vector<JointReading> World::Implementation::read_joints(std::span<const JointId> ids)
 {
+  settle();
   const std::vector<uint32_t> joints = slots_of_joints("read_joints", ids);
   if (joints.empty()) return {};
-  settle();
   const std::vector<PreciseBodyState> states = download_precise_bodies(memory, special.order);
   const JointImpulses impulses(memory, joint_order.joints(), joint_graph.axes);
   const double rate = plan.substeps.of_cache / double{settings.step};

@@ -1,9 +1,13 @@
 /* joint_slots.cpp - see joint_slots.h. */
 #include "host/world/joint_slots.h"
 
+#include <iterator>
+
 #include <fmt/format.h>
 
 #include <tandem/error.h>
+
+#include "host/base/reserve_more.h"
 
 namespace tandem {
 
@@ -21,14 +25,21 @@ uint32_t JointSlots::slot_of(const char *call, const JointId &id) const
   return id.index;
 }
 
+void JointSlots::prepare(size_t changes)
+{
+  reserve_more(slots_, changes);
+  reserve_more(queue_, changes);
+}
+
 uint32_t JointSlots::take()
 {
-  if (queue_.empty()) {
+  const auto first = queue_.begin() + first_free_;
+  if (first == queue_.end()) {
     slots_.emplace_back();
     return static_cast<uint32_t>(slots_.size() - 1);
   }
-  const uint32_t slot = queue_.front();
-  queue_.erase(queue_.begin());
+  const uint32_t slot = *first;
+  if (2 * ++first_free_ >= std::ssize(queue_)) queue_.erase(queue_.begin(), first + 1), first_free_ = 0;
   slots_[slot].exists = true;
   return slot;
 }

@@ -148,6 +148,7 @@ void World::Implementation::set_properties(std::span<const BodyId> ids, std::spa
                                  ids.size(), properties.size()));
   std::vector<uint32_t> given;
   for (const BodyId &id : ids) given.push_back(slots.slot_of("set_properties", id));
+  settle_joints();
   const ChangedBodies changed = changed_by(scene, settings, given, properties, is_batch() ? bodies_of_world() : 0);
   if (is_batch()) refuse_joined("set_properties", "its type cannot change in a batch", retyped_by(scene, changed));
   const std::vector<uint32_t> retyped = joints_of_bodies(retyped_by(scene, changed));

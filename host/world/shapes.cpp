@@ -146,6 +146,7 @@ bool takes_mass_of_shape(const Body &body) { return body.type == BodyType::dynam
 void World::Implementation::give_parts(const char *call, const std::map<uint32_t, std::vector<Child>> &parts)
 {
   if (parts.empty()) return;
+  settle_joints();
   std::vector<uint32_t> moved;
   for (const auto &[slot, children] : parts)
     if (takes_mass_of_shape(scene.bodies[slot])) moved.push_back(slot);

@@ -437,7 +437,7 @@ void World::Implementation::wake_touched()
 bool World::Implementation::nothing_moves() const
 {
   return settings.sleeping && awake_dynamics == 0 && moving_kinematics.empty() && settings.extensions.empty() &&
-         state == quiet_state && commands.empty() && force_commands.empty() && whole;
+         state == quiet_state && commands.empty() && force_commands.empty() && !pending_joints && whole;
 }
 
 } // namespace tandem

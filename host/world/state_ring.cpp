@@ -117,6 +117,7 @@ void World::Implementation::keep_states(uint32_t states, bool after_steps)
   constexpr uint32_t most_states = 10000;
   if (states > most_states)
     throw InputError(fmt::format("keep_states: {} states; {} are the most", states, most_states));
+  settle_joints();
   StateRing fresh;
   fresh.resize(states, after_steps);
   if (states > 0) buffers.make_ready(sizes());
@@ -325,6 +326,7 @@ void World::Implementation::check_back(uint32_t states) const
 void World::Implementation::go_back(uint32_t states)
 {
   const minicl::ExactFloatingPoint environment;
+  settle_joints();
   check_back(states);
   restore_bodies();
   const KeptState &then = ring.back(states);

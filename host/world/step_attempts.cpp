@@ -11,6 +11,7 @@
 #include "host/base/out_of_memory.h"
 #include "host/pipeline/broadphases/broadphase.h"
 #include "host/pipeline/scene_counts.h"
+#include "host/world/answers.h"
 #include "host/world/batch_fault.h"
 #include "host/world/implementation.h"
 #include "host/world/quarantine_limits.h"
@@ -32,6 +33,11 @@ void World::Implementation::step(const StepLimits &limits)
   if (nothing_moves()) return sleep_on();
   launcher.set_step(statistics.steps);
   if (automatic) place_as_chosen();
+  if (pending_joints)
+    answer("new joints", slots.existing(), [&] {
+      restore_bodies();
+      settle_joints();
+    });
   ++state;
   const Attempt before{plan, statistics, first_outgrown, quarantined.size()};
   try {

@@ -74,14 +74,22 @@ bool World::wait_until_placed(double seconds)
   return answer("the placement", implementation_->slots.existing(),
                 [&] { return implementation_->wait_until_placed(seconds); });
 }
-const Scene &World::scene() const { return implementation_->scene; }
+const Scene &World::scene() const
+{
+  answer("new joints", implementation_->slots.existing(), [&] { implementation_->settle_joints_in_turn(); });
+  return implementation_->scene;
+}
 const Settings &World::settings() const { return implementation_->settings; }
 const std::string &World::broadphase_why() const { return implementation_->broadphase_why; }
 const std::vector<Quarantine> &World::quarantined() const { return implementation_->quarantined; }
 const std::optional<BatchFault> &World::batch_fault() const { return implementation_->fault; }
 Features World::features() const { return implementation_->special.features; }
 std::vector<Kernel> World::kernels() const { return implementation_->buffers.needs().kernels; }
-Memory &World::memory() { return implementation_->memory; }
+Memory &World::memory()
+{
+  scene();
+  return implementation_->memory;
+}
 Backend &World::backend_of(Kernel kernel) { return implementation_->backends.of(kernel); }
 uint32_t World::scene_body(uint32_t buffer_index) const
 {
@@ -149,7 +157,11 @@ void World::keep_state()
   note(implementation_->log, RecordedCall::keep_state);
 }
 
-uint32_t World::states_kept() const { return static_cast<uint32_t>(implementation_->ring.kept()); }
+uint32_t World::states_kept() const
+{
+  scene(); /* joints that come may need other tables, which states kept before do not have */
+  return static_cast<uint32_t>(implementation_->ring.kept());
+}
 
 void World::go_back(uint32_t states)
 {
@@ -177,6 +189,7 @@ void World::write_bytes(Buffer buffer, const void *from, size_t bytes, size_t of
 
 size_t World::buffer_bytes(Buffer buffer) const
 {
+  scene();
   const std::lock_guard guard(implementation_->reading);
   row_of(buffer); /* InputError if there is no buffer of this number */
   return index_of(buffer) < implementation_->buffers.needs().touched.size() ? implementation_->memory.bytes(buffer) : 0;

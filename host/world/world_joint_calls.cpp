@@ -1,6 +1,7 @@
 /* world_joint_calls.cpp - the functions of <tandem/world.h> about joints: they come, change, are read and go. */
 #include <cmath>
 #include <map>
+#include <mutex>
 #include <utility>
 
 #include <fmt/format.h>
@@ -16,20 +17,25 @@ namespace tandem {
 
 JointId World::id_of_joint(uint32_t joint) const
 {
-  if (!implementation_->joint_slots.exists(joint))
+  const std::lock_guard guard(implementation_->reading);
+  const JointSlots &slots = implementation_->present_joint_slots();
+  if (!slots.exists(joint))
     throw InputError(fmt::format("id_of_joint: joint {} does not exist; the world has {} places for joints", joint,
-                                 implementation_->scene.joints.size()));
-  return implementation_->joint_slots.id_of(joint);
+                                 slots.slots().size()));
+  return slots.id_of(joint);
 }
 
 bool World::exists(const JointId &id) const
 {
-  return implementation_->joint_slots.exists(id.index) && implementation_->joint_slots.id_of(id.index) == id;
+  const std::lock_guard guard(implementation_->reading);
+  const JointSlots &slots = implementation_->present_joint_slots();
+  return slots.exists(id.index) && slots.id_of(id.index) == id;
 }
 
 std::vector<JointId> World::joint_ids() const
 {
-  const JointSlots &slots = implementation_->joint_slots;
+  const std::lock_guard guard(implementation_->reading);
+  const JointSlots &slots = implementation_->present_joint_slots();
   std::vector<JointId> ids;
   for (uint32_t slot = 0; slot < slots.slots().size(); ++slot)
     if (slots.exists(slot)) ids.push_back(slots.id_of(slot));
@@ -74,7 +80,7 @@ void World::set_joint_axes(std::span<const JointId> ids, std::span<const JointAx
 void World::set_controls(std::span<const float> controls)
 {
   const minicl::ExactFloatingPoint environment;
-  const Scene &scene = implementation_->scene;
+  const Scene &scene = this->scene();
   if (controls.size() != scene.actuators.size())
     throw InputError(fmt::format("set_controls: {} controls for {} actuators; one for each is needed", controls.size(),
                                  scene.actuators.size()));

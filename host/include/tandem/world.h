@@ -291,7 +291,10 @@ public:
   /* --- joints at run time (<tandem/joints.h>) ---
    * As with bodies, each call takes effect completely or not at all, and InputError names the first entry at fault.
    * Bodies of joints that a call makes, changes or destroys wake. All but the changes of axes colour the joints of the
-   * world anew, which takes time for each of them, so many changes should be one call. */
+   * world anew, which takes time for each of them. After the first one, joints that are created and destroyed wait for
+   * that until the next step or read, so a call takes microseconds, and memory may run out there; scene(), memory() and
+   * all that tells of bodies or joints but their handles is such a read. Where bodies sleep, or a joint needs kernels
+   * that the world has not built, a call does all at once. Many changes of set_joints() should be one call. */
 
   JointId id_of_joint(uint32_t joint) const; /* of the joint with this index in Scene::joints */
   bool exists(const JointId &id) const;
