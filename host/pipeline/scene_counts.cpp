@@ -12,26 +12,26 @@
 
 namespace tandem {
 
-std::vector<std::pair<int, uint32_t>> entries_of(const SceneCounts &scene)
+SceneEntries entries_of(const SceneCounts &scene)
 {
   const uint32_t blocks = (scene.bodies + SWEEP_BLOCK - 1) / SWEEP_BLOCK;
-  return {{COUNT_ZERO, 0},
-          {COUNT_ONE, 1},
-          {COUNT_BODIES, scene.bodies},
-          {COUNT_BODIES_PLUS_ONE, scene.bodies + 1},
-          {COUNT_UNBOUNDED, scene.unbounded},
-          {COUNT_BOUNDED, scene.bodies - scene.unbounded},
-          {COUNT_LARGE, scene.large},
-          {COUNT_SMALL, scene.bodies - scene.large},
-          {COUNT_ALL_BODIES, scene.bodies + scene.sleepers},
-          {COUNT_SLEEPERS, scene.sleepers},
-          {COUNT_SHARES, SWEEP_SHARES * scene.bodies},
-          {COUNT_SWEEP_BLOCKS, blocks},
-          {COUNT_SWEEP_ITEMS, TILE * blocks},
-          {COUNT_HALVES, 2 * scene.bodies},
-          {COUNT_COLOR_STARTS, COLOR_LIMIT + 1},
-          {COUNT_BATCH_CELLS, batch_cells_for(scene.bodies)},
-          {COUNT_BATCH_ITEMS, TILE * batch_cells_for(scene.bodies)}};
+  return {{{COUNT_ZERO, 0},
+           {COUNT_ONE, 1},
+           {COUNT_BODIES, scene.bodies},
+           {COUNT_BODIES_PLUS_ONE, scene.bodies + 1},
+           {COUNT_UNBOUNDED, scene.unbounded},
+           {COUNT_BOUNDED, scene.bodies - scene.unbounded},
+           {COUNT_LARGE, scene.large},
+           {COUNT_SMALL, scene.bodies - scene.large},
+           {COUNT_ALL_BODIES, scene.bodies + scene.sleepers},
+           {COUNT_SLEEPERS, scene.sleepers},
+           {COUNT_SHARES, SWEEP_SHARES * scene.bodies},
+           {COUNT_SWEEP_BLOCKS, blocks},
+           {COUNT_SWEEP_ITEMS, TILE * blocks},
+           {COUNT_HALVES, 2 * scene.bodies},
+           {COUNT_COLOR_STARTS, COLOR_LIMIT + 1},
+           {COUNT_BATCH_CELLS, batch_cells_for(scene.bodies)},
+           {COUNT_BATCH_ITEMS, TILE * batch_cells_for(scene.bodies)}}};
 }
 
 namespace {
@@ -65,7 +65,7 @@ void set_length(Memory &memory, uint32_t length) { set_count(memory, COUNT_LENGT
 
 bool is_told_by_scene(uint32_t entry)
 {
-  static const std::vector<std::pair<int, uint32_t>> entries = entries_of({});
+  static const SceneEntries entries = entries_of({});
   return std::any_of(entries.begin(), entries.end(), [entry](const auto &one) { return uint32_t(one.first) == entry; });
 }
 

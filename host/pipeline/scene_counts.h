@@ -2,6 +2,7 @@
  * change them. */
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -18,8 +19,9 @@ struct SceneCounts {
   uint32_t sleepers = 0;  /* behind the bodies that are awake */
 };
 
-/* The entries of shared/counts.h with their values. */
-std::vector<std::pair<int, uint32_t>> entries_of(const SceneCounts &scene);
+/* The entries of shared/counts.h with their values; a change of a world replaces them after its last allocation. */
+using SceneEntries = std::array<std::pair<int, uint32_t>, 17>;
+SceneEntries entries_of(const SceneCounts &scene);
 /* The entries of joints. starts: of each colour, of the overflow joints, and the end (host/scene/joint_graph.h). */
 std::vector<std::pair<int, uint32_t>> joint_entries_of(std::span<const uint32_t> starts);
 /* The same of couplings. */

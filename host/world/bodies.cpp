@@ -12,6 +12,7 @@
  * Whatever can fail for lack of memory comes before the first change of the world.
  */
 #include <algorithm>
+#include <optional>
 #include <set>
 
 #include <fmt/format.h>
@@ -151,7 +152,7 @@ public:
     world_->chosen_for = std::move(chosen_for_);
     world_->broadphase_why = std::move(broadphase_why_);
     world_->chosen_moving = chosen_moving_;
-    world_->scene_entries = std::move(entries_);
+    world_->scene_entries = entries_;
     world_->buffers.give_back_needs(std::move(needs_));
     world_->slots = std::move(slots_);
     world_->uploaded_shapes = shapes_;
@@ -171,7 +172,7 @@ private:
   Broadphase broadphase_;
   std::string chosen_for_, broadphase_why_;
   bool chosen_moving_;
-  std::vector<std::pair<int, uint32_t>> entries_;
+  SceneEntries entries_;
   StepBuffers::Needs needs_;
   BodySlots slots_;
   size_t shapes_, materials_;
@@ -429,7 +430,8 @@ std::vector<uint32_t> World::Implementation::moved_bodies()
   return moved_before ? *moved_before : download_moved_bodies(memory, events_order());
 }
 
-/* Makes room, tables and kernels for the new bodies, and moves the others to their new places. */
+/* Makes room, tables and kernels for the new bodies, and moves the others to their new places. Nothing needs memory
+ * after the backup is dropped. */
 void World::Implementation::lay_out_anew(const Arrival &arrival, const JointImpulses *impulses)
 {
   buffers.make_ready(sizes());
@@ -453,6 +455,9 @@ void World::Implementation::lay_out_anew(const Arrival &arrival, const JointImpu
   stage_arrival(uploads, arrival);
   if (impulses) impulses->stage(uploads, joint_order.joints(), joint_graph.axes);
   stage_counts(uploads);
+  std::optional<Sleepers> sleepers_now;
+  if (!sleepers.empty()) sleepers_now = sleepers_with(old_pair_rows);
+  index_of_body.reserve(scene.bodies.size());
   uploads.prepare(memory);
   backup.drop();
 
@@ -462,7 +467,9 @@ void World::Implementation::lay_out_anew(const Arrival &arrival, const JointImpu
   uploads.write(memory);
   guess_counts();
   forget_kept(memory);
-  if (!sleepers.empty()) keep_sleeping(old_pair_rows);
+  if (!sleepers_now) return;
+  sleepers = std::move(*sleepers_now);
+  sleepers_changed();
 }
 
 /* The same bodies with other features or shapes. */

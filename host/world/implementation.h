@@ -19,6 +19,7 @@
 #include <tandem/world.h>
 
 #include "host/pipeline/broadphases/choice.h"
+#include "host/pipeline/scene_counts.h"
 #include "host/pipeline/sleeping.h"
 #include "host/pipeline/step.h"
 #include "host/runtime/launcher.h"
@@ -200,7 +201,7 @@ struct World::Implementation {
   void keep_state_of_step();
   void go_back(uint32_t states);
   void check_back(uint32_t states) const;
-  std::vector<std::pair<int, uint32_t>> entries_then(const KeptState &state) const;
+  SceneEntries entries_then(const KeptState &state) const;
   void stage_roster(StagedUploads &uploads, const KeptState &state, std::span<const RosterChange> changes,
                     const std::vector<uint32_t> &index) const;
   std::shared_ptr<const KeptSleepers> keep_sleepers();
@@ -353,7 +354,7 @@ struct World::Implementation {
   void note_sorted();
   bool fits_table(uint32_t more) const;
   void append_fallen(uint32_t before);
-  void keep_sleeping(const std::vector<CarriedBuffer> &old_rows);
+  Sleepers sleepers_with(const std::vector<CarriedBuffer> &old_rows) const;
   void recount_motion();
   void keep_order_of_events();
   void put_to_sleep();
@@ -410,7 +411,7 @@ struct World::Implementation {
   PlacedLauncher launcher;
   StepParts parts;
   StepPlan plan;
-  std::vector<std::pair<int, uint32_t>> scene_entries; /* of counts */
+  SceneEntries scene_entries{};            /* of counts */
   uint64_t state = 1, structure_state = 0; /* the number of the present state, and of the one that the queries'
                                               structure belongs to */
   std::vector<uint32_t> queried_bodies;    /* as tell_queried_bodies keeps them */

@@ -155,13 +155,14 @@ void World::Implementation::tell_sleepers(bool sort_anew)
   plan.sleepers = !sleepers.empty();
   plan.other_sleepers = plan.other_sleepers || sort_anew;
   launcher.set_keeps_sleepers(plan.sleepers);
-  cached_pairs = memory.read<uint32_t>(Buffer::cached_start, 1, special.awake).front();
+  memory.download(Buffer::cached_start, &cached_pairs, sizeof cached_pairs, special.awake * sizeof cached_pairs);
   forget_kept(memory);
   ++state;
 }
 
-/* The buffers have been laid out anew. Pairs of sleepers have no values in buffers that were not there before. */
-void World::Implementation::keep_sleeping(const std::vector<CarriedBuffer> &old_rows)
+/* For buffers that are laid out anew, after those given. Pairs of sleepers have no values in buffers that were not
+ * there before. */
+Sleepers World::Implementation::sleepers_with(const std::vector<CarriedBuffer> &old_rows) const
 {
   std::vector<Sleepers::Part> parts;
   for (const CarriedBuffer &rows : pair_rows(buffers.needs().touched)) {
@@ -173,8 +174,9 @@ void World::Implementation::keep_sleeping(const std::vector<CarriedBuffer> &old_
     }
     parts.push_back(part);
   }
-  sleepers.rearrange(parts);
-  sleepers_changed();
+  Sleepers rearranged = sleepers;
+  rearranged.rearrange(parts);
+  return rearranged;
 }
 
 /* What the host knows of motion, found anew: after a state has been put back. */

@@ -220,7 +220,7 @@ std::vector<uint32_t> changed_slots(std::span<const RosterChange> changes, uint3
 
 } // namespace
 
-std::vector<std::pair<int, uint32_t>> World::Implementation::entries_then(const KeptState &state) const
+SceneEntries World::Implementation::entries_then(const KeptState &state) const
 {
   const uint32_t asleep = state.sleepers ? state.sleepers->sleepers.count() : 0,
                  large = state.sleepers ? state.sleepers->large : special.large;

@@ -324,6 +324,45 @@ TEST_CASE("heap: bodies that cannot be created for want of memory leave the next
   }
 }
 
+/* The new body brings in a feature, so that all buffers are laid out anew while the others sleep. */
+TEST_CASE("heap: a body that cannot be created for want of memory leaves those that sleep as they were")
+{
+  Settings settings;
+  settings.broadphase = Broadphase::brute_force;
+  settings.sleeping = true;
+  settings.sleep_time = 0.1f;
+  const Story story{load_scene("box-grid:nx=2,ny=1,nz=2"), settings, serial, 90};
+  Body damped = story.scene.bodies[1];
+  damped.position = {100, 50, 0};
+  damped.linear_damping = 1;
+  const auto hashes_from_here = [](World &world) {
+    std::vector<uint64_t> hashes{world.state_hash()};
+    world.wake_bodies(world.body_ids());
+    for (int k = 0; k < 3; ++k) {
+      hashes.push_back(world.state_hash());
+      world.step();
+    }
+    return hashes;
+  };
+  const std::unique_ptr<World> undisturbed = begun(story), called = begun(story);
+  REQUIRE(undisturbed->statistics().asleep == 4);
+  called->create_body(damped);
+  REQUIRE(called->statistics().asleep == 4);
+  const std::vector<uint64_t> without = hashes_from_here(*undisturbed), with_it = hashes_from_here(*called);
+  uint64_t failures = 0;
+  for (const bool once : {true, false})
+    for (uint64_t nth = 0;; nth += tests::share_of_faults(1)) {
+      CAPTURE(nth, once);
+      const std::unique_ptr<World> world = begun(story);
+      const Outcome outcome = attempt(nth, once, [&] { world->create_body(damped); });
+      check_told(outcome);
+      failures += outcome.thrown;
+      REQUIRE(hashes_from_here(*world) == (outcome.thrown ? without : with_it));
+      if (!outcome.struck) break;
+    }
+  CHECK(failures > 0);
+}
+
 /* The islands of `direct` are solved by tasks of TBB, for which all memory is taken before the first one starts. */
 TEST_CASE("heap: a step whose tasks run in other threads allocates in the one that asked for it alone", "[sanitizer]")
 {
@@ -397,7 +436,7 @@ Joint one_more_joint(uint32_t a, uint32_t b)
   return joint;
 }
 
-/* Those that fit the tables. */
+/* All but the last fit the tables. */
 std::vector<std::pair<const char *, Call>> calls_of_joints()
 {
   return {
@@ -405,6 +444,12 @@ std::vector<std::pair<const char *, Call>> calls_of_joints()
       {"destroy", [](World &world) { world.destroy_joint(world.id_of_joint(4)); }},
       {"set", [](World &world) { world.set_joint(world.id_of_joint(4), one_more_joint(2, 6)); }},
       {"set axis", [](World &world) { world.set_joint_axis(world.id_of_joint(0), 3, {.friction = 2}); }},
+      {"set to break",
+       [](World &world) {
+         Joint joint = one_more_joint(2, 6);
+         joint.break_force = 1000;
+         world.set_joint(world.id_of_joint(4), joint);
+       }},
   };
 }
 
