@@ -404,6 +404,7 @@ struct World::Implementation {
   JointedLinks links;                             /* of articulations, which stay as they are */
   std::vector<JointBreak> joint_breaks;           /* of the last step */
   uint64_t joints_number = 0, joints_numbers = 0; /* the number of the present joints, and of those so far */
+  uint64_t graph_number = 0;                      /* of graphs of joints since the world began */
   std::shared_ptr<const KeptJoints> kept_joints;  /* the present ones, as states that are kept share them; or null */
   BodySlots slots;
   ShapeSlots shapes;

@@ -143,12 +143,6 @@ void World::Implementation::disturb_joined(std::span<const Joint> joints)
 void World::Implementation::put_joints(std::vector<Joint> joints, const JointSlots &slots_then,
                                        std::span<const uint32_t> changed)
 {
-  if (is_batch())
-    throw InputError(fmt::format("{}: joint {}: an axis would come or go, or begin to bounce, which a batch of worlds "
-                                 "has no room for; in a batch, axes that are limited, driven or braked stay so, and "
-                                 "others do not become so",
-                                 call_in_message("set_joint_axes", some_body_of(scene.joints[changed.front()])),
-                                 joint_in_message(changed.front())));
   settle();
   std::vector<Joint> disturbed;
   for (const uint32_t joint : changed) {
@@ -172,6 +166,7 @@ void World::Implementation::exchange_joints(std::vector<Joint> joints, const Joi
   for (const uint32_t joint : forgotten) impulses.forget(joint);
   JointSlots new_slots = slots_then;
   JointGraph graph = graph_with(joints);
+  if (is_batch()) graph.joined_pairs = std::max(graph.joined_pairs, joint_graph.joined_pairs); /* they may be mended */
   const std::vector<uint32_t> recolored_now = bodies_with_new_colors(joint_graph, graph);
   recolored.insert(recolored.end(), recolored_now.begin(), recolored_now.end());
   wake_bodies(recolored, false);
@@ -186,6 +181,7 @@ void World::Implementation::exchange_joints(std::vector<Joint> joints, const Joi
   placed.keep();
   joint_slots = std::move(new_slots);
   joints_number = ++joints_numbers;
+  ++graph_number;
   if (!sleepers.empty()) set_of_sleepers = ++sets_of_sleepers; /* their joints may have other places */
   if (!fits) ring.forget(std::move(reason));
   put_colors(contact_colors);
@@ -196,7 +192,7 @@ JointGraph World::Implementation::graph_with(std::vector<Joint> &joints)
 {
   scene.joints.swap(joints);
   try {
-    JointGraph graph = joint_graph_of(scene);
+    JointGraph graph = joint_graph_of(scene, std::max(special.worlds, 1u));
     scene.joints.swap(joints);
     return graph;
   } catch (...) {
@@ -411,6 +407,12 @@ void World::Implementation::write_joint_axes(std::span<const uint32_t> changed, 
     fits = fits && kinds_used_by(scene.joints[changed[k]]) == kinds_used_by(joints[k]) &&
            has_rows_besides_tree(scene.joints[changed[k]]) == has_rows_besides_tree(joints[k]) &&
            (features_of(joints[k]) & ~scene_features) == 0;
+  if (!fits && is_batch())
+    throw InputError(fmt::format("{}: joint {}: an axis would come or go, or begin to bounce, which a batch of worlds "
+                                 "has no room for; in a batch, axes that are limited, driven or braked stay so, and "
+                                 "others do not become so",
+                                 call_in_message("set_joint_axes", some_body_of(scene.joints[changed.front()])),
+                                 joint_in_message(changed.front())));
   if (!fits) {
     std::vector<Joint> all = scene.joints;
     for (size_t k = 0; k < changed.size(); ++k) all[changed[k]] = std::move(joints[k]);

@@ -196,9 +196,13 @@ void Worlds::Controls::find_targets_anew(World::Implementation &engine)
 {
   if (joints_number_ == engine.joints_number) return;
   std::vector<Target> targets;
-  for (size_t i = 0; i < targets_.size(); ++i)
-    targets.push_back(checked_target(engine, targets_[i].joint, chosen_[i % count()],
-                                     fmt::format("set_controls: control {} of world {}: ", i % count(), i / count())));
+  for (size_t i = 0; i < targets_.size(); ++i) {
+    const uint32_t joint = targets_[i].joint;
+    const ControlledAxis &control = chosen_[i % count()];
+    const bool broke = !engine.scene.joints[joint].enabled; /* its axis is set as that of any joint */
+    const auto where = [&] { return fmt::format("set_controls: control {} of world {}: ", i % count(), i / count()); };
+    targets.push_back(broke ? target_of(engine, joint, control) : checked_target(engine, joint, control, where()));
+  }
   targets_ = std::move(targets);
   of_all_.clear();
   has_places_of_all_ = false;

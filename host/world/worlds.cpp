@@ -26,11 +26,6 @@ void check_scenes(std::span<const Scene> scenes, uint32_t copies)
   if (scenes.empty() || copies == 0) throw InputError("worlds: 0 worlds; at least 1 is needed");
   for (size_t k = 0; k < scenes.size(); ++k) {
     validate(scenes[k], scenes[k].name);
-    if (joint_features(scenes[k]) & FEATURE_JOINT_BREAKS)
-      throw InputError(
-          fmt::format("worlds: scene {} ('{}') has a joint that can break; a batch of worlds has none, and a "
-                      "world alone has",
-                      k, scenes[k].name));
     if (scenes[k].bodies.size() != scenes.front().bodies.size())
       throw InputError(
           fmt::format("worlds: scene {} ('{}') has {} bodies and scene 0 has {}; the worlds of a batch have "
@@ -97,6 +92,7 @@ Worlds::Implementation::Implementation(std::span<const Scene> scenes, uint32_t c
       World::Implementation::Beginning{std::move(all), used, std::move(special), BodySlots(count), count, pairs, false},
       placement)));
   joints = WorldJoints(engine().scene, engine().joint_graph, engine().coupling_graph, tables.worlds());
+  for (const Joint &joint : engine().scene.joints) enabled_at_start.push_back(joint.enabled);
   upload_batch();
 }
 
@@ -136,9 +132,9 @@ std::vector<JointId> Worlds::Implementation::ids_of(const char *call, std::span<
   return ids;
 }
 
-WorldPlace Worlds::Implementation::place_of(uint32_t number) const
+WorldPlace Worlds::Implementation::place_of(uint32_t number)
 {
-  return {number * bodies, bodies, steps(number) == 0, joints.of(number)};
+  return {number * bodies, bodies, steps(number) == 0, present_joints().of(number)};
 }
 
 Scene Worlds::Implementation::scene(uint32_t number)
@@ -171,7 +167,12 @@ Scene Worlds::scene(uint32_t world) const
   return implementation_->scene(world);
 }
 
-void Worlds::step(const StepLimits &limits) { implementation_->world->step(limits); }
+/* A step in which joints break writes all joints as the scene has them. */
+void Worlds::step(const StepLimits &limits)
+{
+  if (implementation_->engine().scene_features & FEATURE_JOINT_BREAKS) implementation_->write_controls();
+  implementation_->world->step(limits);
+}
 
 uint64_t Worlds::steps(uint32_t world) const
 {

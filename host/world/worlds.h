@@ -31,7 +31,7 @@ struct Worlds::Implementation {
   void check_world(const char *call, uint32_t number) const;
   std::vector<BodyId> ids_of(const char *call, std::span<const WorldBody> given) const;
   std::vector<JointId> ids_of(const char *call, std::span<const WorldJoint> given) const;
-  WorldPlace place_of(uint32_t number) const;
+  WorldPlace place_of(uint32_t number);
   uint64_t steps(uint32_t number) const { return engine().statistics.steps - started[number]; }
   Scene scene(uint32_t number);
   void write_controls() { controls.write_scene(engine().scene); }
@@ -45,6 +45,14 @@ struct Worlds::Implementation {
   void launch_reset(std::span<const uint32_t> numbers);
   void launch_reset_of_joints(std::span<const uint32_t> numbers);
   void launch_reset_of(std::span<const uint32_t> rows, Buffer list, Kernel kernel);
+
+  /* --- joints that break: worlds_breaks.cpp --- */
+  const WorldJoints &present_joints();
+  bool is_broken(uint32_t joint) const;
+  void enable_joints(std::span<const uint32_t> changed, bool enabled); /* by their numbers in the scene of all */
+  void mend(std::span<const uint32_t> numbers);
+  Scene mended(uint32_t number, Scene scene) const;
+  void break_as_in(uint32_t number, const Scene &scene);
 
   /* --- worlds as they would be alone: worlds_alone.cpp --- */
   bool has_alone(uint32_t number, Buffer buffer) const;
@@ -70,7 +78,9 @@ struct Worlds::Implementation {
 
   Settings settings; /* as they were given */
   SceneTables tables;
-  WorldJoints joints;
+  WorldJoints joints;                 /* of the joints as they were coloured then, as present_joints() asks */
+  uint64_t graph_of_joints = 0;       /* World::Implementation::graph_number then */
+  std::vector<bool> enabled_at_start; /* by joint of all worlds */
   Controls controls;
   uint32_t bodies = 0;           /* of each world */
   std::vector<Vec3> gravity;     /* by world, as all that follows */

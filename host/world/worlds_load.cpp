@@ -72,8 +72,8 @@ void Worlds::Implementation::check_loaded(uint32_t number, const SnapshotContent
   check_built(contents.special.features, contents.scene, settings, "load");
   const std::vector<BodyStatus> &status = contents.slots.status();
   const bool has_free = std::find(status.begin(), status.end(), BodyStatus::free) != status.end();
-  const Scene own = scene(number);
-  if (has_free || bytes_of(contents.scene) != bytes_of(own) ||
+  const Scene own = mended(number, scene(number));
+  if (has_free || bytes_of(mended(number, contents.scene)) != bytes_of(own) ||
       contents.special.order != specialise(own, settings).order)
     throw InputError(fmt::format("load: the snapshot is of another scene than that of world {}; shapes, materials, "
                                  "starts and properties of bodies must be equal",
@@ -167,7 +167,7 @@ void Worlds::Implementation::load_bodies(uint32_t number, const SnapshotContents
 void Worlds::Implementation::load_joints(Buffer buffer, uint32_t number, std::span<const std::byte> rows)
 {
   const size_t item = item_bytes(buffer);
-  for_each_run(items_of_joints(buffer, joints.of(number)), [&](size_t at, size_t first, size_t count) {
+  for_each_run(items_of_joints(buffer, present_joints().of(number)), [&](size_t at, size_t first, size_t count) {
     engine().memory.upload(buffer, &rows[at * item], count * item, first * item);
   });
 }
@@ -184,6 +184,7 @@ void Worlds::Implementation::load(uint32_t number, std::span<const std::byte> sn
   const uint64_t pairs = pairs_with(old, contents);
   make_room_for(pairs);
   reset(std::span(&number, 1));
+  break_as_in(number, contents.scene);
   load_pairs(number, old, pairs, contents);
   started[number] = engine().statistics.steps - contents.steps; /* modulo 2^64, as steps() */
   load_bodies(number, contents);

@@ -80,6 +80,7 @@ void Worlds::Implementation::reset(std::span<const uint32_t> given)
   all.settle();
   all.buffers.make_ready(all.sizes());
   ++all.state;
+  mend(numbers);
   take_out_of_quarantine(numbers);
   if (!numbers.empty() && bodies > 0) launch_reset(numbers);
   for (const uint32_t number : numbers) {
@@ -144,7 +145,7 @@ void Worlds::Implementation::launch_reset_of_joints(std::span<const uint32_t> nu
 {
   std::vector<uint32_t> places, coupled;
   for (const uint32_t number : numbers) {
-    const JointPlaces own = joints.of(number);
+    const JointPlaces own = present_joints().of(number);
     places.insert(places.end(), own.places.begin(), own.places.end());
     coupled.insert(coupled.end(), own.couplings.begin(), own.couplings.end());
   }

@@ -147,6 +147,8 @@ public:
   WorldEvents<HitEvent> hit_events();
   WorldEvents<PairEvent> pair_events();
   WorldEvents<uint32_t> moved_bodies();
+  /* The joints that broke; JointBreak::joint has the index in the scene of the world. A reset makes them whole. */
+  WorldEvents<JointBreak> joint_breaks() const;
   /* The bodies of a world that were taken out of it since it was made or reset; `step` counts as steps() does. */
   std::vector<Quarantine> quarantined(uint32_t world) const;
   Statistics statistics(); /* over all worlds; steps: of the batch */
