@@ -245,6 +245,7 @@ private:
     if (settings().pair_events) list_pair_events();
     launcher().begin_commit();
     run(Kernel::commit_bodies);
+    if (balances_trees()) run(Kernel::commit_tree_balance);
     if (settings().moved_bodies) list_moved_bodies();
     if (plan().forces) run(Kernel::clear_forces);
     if (plan().sleeping)

@@ -87,14 +87,27 @@ void StepLaunches::solve_mixed_trees(uint32_t pass)
   if (plan_.colors > LINK_COLORS) run(Kernel::solve_link_contacts_in_order, {pass});
 }
 
-void StepLaunches::for_each_link_color(uint32_t pass)
+void StepLaunches::push_links(uint32_t pass)
 {
-  if (!has_links()) return;
   if (pass != PASS_BOUNCING) solve_link_joints(pass);
   run(Kernel::solve_tree_contacts, {pass});
   solve_mixed_trees(pass);
+}
+
+void StepLaunches::for_each_link_color(uint32_t pass)
+{
+  if (!has_links()) return;
+  push_links(pass);
   if (pass != PASS_WARM_STARTING) run(Kernel::solve_articulations, {pass});
   if (has(FEATURE_TREE_COUPLINGS) && pass != PASS_BOUNCING) run(Kernel::solve_tree_couplings, {pass});
+}
+
+/* A pass that starts a step gathers all impulses of contacts and joints as forces on links. */
+void StepLaunches::balance_trees()
+{
+  if (!balances_trees()) return;
+  push_links(PASS_WARM_STARTING);
+  run(Kernel::sum_tree_balance);
 }
 
 void StepLaunches::for_each_joint_color(Kernel joints, const Values &values)
@@ -136,6 +149,7 @@ void StepLaunches::begin_substep(uint32_t substep)
   run_extensions(StepPoint::forces);
   if (plan_.forces) run(Kernel::apply_forces);
   run(Kernel::integrate_velocities);
+  if (balances_trees() && substep + 1 == settings_.substeps) run(Kernel::begin_tree_balance, {plan_.forces});
   if (has_links()) run(Kernel::accelerate_articulations, {plan_.forces});
   if (has(FEATURE_MAX_SPEED)) run(Kernel::clamp_speeds);
 }

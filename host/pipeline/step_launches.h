@@ -22,6 +22,8 @@ public:
   bool has(Features feature) const { return (plan_.features & feature) != 0; }
   /* A scene may lack articulations though every feature is built. */
   bool has_links() const { return has(FEATURE_ARTICULATIONS) && plan_.known[COUNT_ARTICULATIONS] > 0; }
+  /* Whether the forces of the joints of trees are wanted: shared/articulations/joint_forces.h. */
+  bool balances_trees() const { return has(FEATURE_TREE_JOINT_FORCES) && has_links(); }
 
   /* Whether this is a batch of worlds of which some may have overflow constraints, which take further passes. */
   bool has_worlds_with_overflow() const { return has(FEATURE_WORLDS) && plan_.colors > COLOR_LIMIT; }
@@ -49,6 +51,8 @@ public:
   void for_each_joint_color(Kernel joints, const Values &values = {});
   /* Solves the joints that hold links and the contacts of links, colour by colour, then the rows of their trees. */
   void for_each_link_color(uint32_t pass);
+  /* After the last pass of a step: the forces of the joints of trees, if they are wanted. */
+  void balance_trees();
   /* Launches a kernel over the overflow joints, if there are some: in a batch, an item starts at each of them. */
   void run_overflow_joints(Kernel kernel, const Values &values = {});
   /* Launches a kernel of couplings once for each of their colours. */
@@ -76,6 +80,7 @@ public:
 
 private:
   void launch_color(Kernel kernel, uint32_t color, const Values &values);
+  void push_links(uint32_t pass);
   void solve_link_joints(uint32_t pass);
   void solve_mixed_trees(uint32_t pass);
 

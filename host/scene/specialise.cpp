@@ -388,7 +388,8 @@ Features features_of(const Scene &scene, const Settings &settings)
   features |= narrowphase_features(scene, features, settings) | support_features(features, settings) |
               solver_features(settings.solver);
   features |= joint_features(scene) | coupling_features(scene);
-  if (!scene.articulations.empty()) features |= with_needs(FEATURE_ARTICULATIONS);
+  if (!scene.articulations.empty())
+    features |= with_needs(settings.tree_joint_forces ? FEATURE_TREE_JOINT_FORCES : FEATURE_ARTICULATIONS);
   if (settings.events) features |= FEATURE_EVENTS;
   if (settings.solver == Solver::soft_step) features |= FEATURE_SUBSTEP_WARM_START;
   return features;

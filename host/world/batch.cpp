@@ -18,7 +18,7 @@ void World::Implementation::note_batch(Recorder &recorder) const
   }
   if (!scene.couplings.empty()) recorder.note(Kernel::reset_couplings);
   if (settings.events) recorder.note(Kernel::reset_touching);
-  if (plan.forces) recorder.note(Kernel::reset_forces);
+  if (plan.forces || (features_run() & FEATURE_TREE_JOINT_FORCES) != 0) recorder.note(Kernel::reset_forces);
 }
 
 /* A world alone quarantines its first body that is not finite, by stage and then by index, and runs its step again. In

@@ -10,6 +10,7 @@
 namespace tandem {
 namespace {
 
+Vector vector_of_row(const float4 &row) { return {row.x, row.y, row.z}; }
 Rotation rotation_in_double(const Quat &q) { return unit(Rotation{q[0], q[1], q[2], q[3]}); }
 
 /* One side of a joint; the world is at rest at its origin. */
@@ -31,6 +32,10 @@ struct Side {
     axes = product_of(turned, axes);
   }
   Vector velocity_at(const Vector &point) const { return velocity + spin.cross(point - center); }
+};
+
+struct JointWrench {
+  Vector force, torque;
 };
 
 class Reader {
@@ -63,8 +68,17 @@ public:
     return reading;
   }
 
+  /* on_link: what the joint of a tree puts on its link, which is one of the bodies, at the origin of its frame. */
+  void add(JointReading &reading, const JointWrench &on_link, bool link_is_b) const
+  {
+    const Vector force = link_is_b ? on_link.force : -on_link.force;
+    Vector torque = link_is_b ? on_link.torque : -on_link.torque;
+    if (!link_is_b) torque += (a_.origin - b_.origin).cross(force);
+    reading.force = array_of(vector_of(reading.force) + force);
+    reading.torque = array_of(vector_of(reading.torque) + torque);
+  }
+
 private:
-  static Vector vector_of_row(const float4 &row) { return {row.x, row.y, row.z}; }
   void read_coordinates(JointReading &reading) const
   {
     const Vector closing = b_.velocity_at(b_.origin) - a_.velocity_at(b_.origin), turning = b_.spin - a_.spin;
@@ -83,6 +97,23 @@ private:
   JointFrames frames_;
 };
 
+/* What the joints of trees have put on their links, by index of the body; none before the first step. */
+class TreeForces {
+public:
+  TreeForces(Memory &memory, size_t bodies)
+  {
+    if (memory.bytes(Buffer::body_joint_force) > 0) rows_ = memory.read<float4>(Buffer::body_joint_force, 2 * bodies);
+  }
+  JointWrench on(uint32_t body) const
+  {
+    if (rows_.empty()) return {};
+    return {vector_of_row(rows_[2 * body]), vector_of_row(rows_[2 * body + 1])};
+  }
+
+private:
+  std::vector<float4> rows_;
+};
+
 } // namespace
 
 std::vector<JointReading> World::Implementation::read_joints(std::span<const JointId> ids)
@@ -93,12 +124,19 @@ std::vector<JointReading> World::Implementation::read_joints(std::span<const Joi
   const std::vector<PreciseBodyState> states = download_precise_bodies(memory, special.order);
   const JointImpulses impulses(memory, joint_order.joints(), joint_graph.axes);
   const double rate = plan.substeps.of_cache / double{settings.step};
+  const TreeForces of_trees(memory, settings.tree_joint_forces ? bodies() : 0);
   std::vector<JointReading> readings;
   readings.reserve(joints.size());
-  for (const uint32_t joint : joints) {
-    readings.emplace_back();
-    if (scene.joints[joint].enabled) readings.back() = Reader(scene.joints[joint], states).read(impulses, joint, rate);
-    if (is_in_tree(joint)) readings.back().force.fill(std::nan("")), readings.back().torque.fill(std::nan(""));
+  for (const uint32_t slot : joints) {
+    const Joint &joint = scene.joints[slot];
+    JointReading &reading = readings.emplace_back();
+    if (!joint.enabled) continue;
+    const Reader reader(joint, states);
+    reading = reader.read(impulses, slot, rate);
+    if (!is_in_tree(slot)) continue;
+    const uint32_t link = links.body_of_joint[slot];
+    if (settings.tree_joint_forces) reader.add(reading, of_trees.on(index_of_body[link]), link == joint.body_b);
+    else reading.force.fill(std::nan("")), reading.torque.fill(std::nan(""));
   }
   return readings;
 }

@@ -102,13 +102,13 @@ template <Is<Actuator> T, class Visit> auto visit_fields(T &record, const Visit 
 template <Is<Settings> T, class Visit> auto visit_fields(T &record, const Visit &visit)
 {
   auto &[step, substeps, iterations, solver, broadphase, bounds, midphase, narrowphase, support, support_cells,
-         batching, check, events, pair_events, sleeping, sleep_speed, sleep_time, moved_bodies, max_pairs, specialise,
-         extensions, contact_hertz, contact_damping_ratio, joint_hertz, joint_damping_ratio, push_speed, slop,
-         slop_share, restitution_speed, hit_speed] = record;
+         batching, check, events, pair_events, sleeping, sleep_speed, sleep_time, moved_bodies, tree_joint_forces,
+         max_pairs, specialise, extensions, contact_hertz, contact_damping_ratio, joint_hertz, joint_damping_ratio,
+         push_speed, slop, slop_share, restitution_speed, hit_speed] = record;
   return visit(step, substeps, iterations, solver, broadphase, bounds, midphase, narrowphase, support, support_cells,
-               batching, check, events, pair_events, sleeping, sleep_speed, sleep_time, moved_bodies, max_pairs,
-               specialise, contact_hertz, contact_damping_ratio, joint_hertz, joint_damping_ratio, push_speed, slop,
-               slop_share, restitution_speed, hit_speed);
+               batching, check, events, pair_events, sleeping, sleep_speed, sleep_time, moved_bodies, tree_joint_forces,
+               max_pairs, specialise, contact_hertz, contact_damping_ratio, joint_hertz, joint_damping_ratio,
+               push_speed, slop, slop_share, restitution_speed, hit_speed);
 }
 
 template <Is<HullPlane> T, class Visit> auto visit_fields(T &record, const Visit &visit)

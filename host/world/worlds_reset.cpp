@@ -132,12 +132,13 @@ void Worlds::Implementation::launch_reset(std::span<const uint32_t> numbers)
   for (const uint32_t number : numbers) firsts.push_back(number * bodies);
   const auto items = static_cast<uint32_t>(firsts.size()) * bodies;
   upload_list(all.memory, Buffer::reset_world, firsts, items);
-  const auto launch = [&](Kernel kernel) {
-    all.launcher.launch({kernel, {}, {bodies}, COUNT_ZERO, COUNT_LENGTH, items});
+  const auto launch = [&](Kernel kernel, const Slots &slots = {}) {
+    all.launcher.launch({kernel, slots, {bodies}, COUNT_ZERO, COUNT_LENGTH, items});
   };
   launch(Kernel::reset_worlds);
   if (settings.events) launch(Kernel::reset_touching);
-  if (all.plan.forces) launch(Kernel::reset_forces);
+  if (all.plan.forces) launch(Kernel::reset_forces, {Buffer::body_force});
+  if (all.memory.bytes(Buffer::body_joint_force) > 0) launch(Kernel::reset_forces, {Buffer::body_joint_force});
   launch_reset_of_joints(numbers);
 }
 

@@ -9,12 +9,17 @@
 
 #include "shared/articulations/loads.h"
 
-/* The momentum of a link, about the point at -arm from its centre. */
-SHARED spatial_force momentum_of_link(const articulation *t, tree_link l, vec3 arm)
+/* The momentum of a link, about its centre. */
+SHARED spatial_force own_momentum_of_link(const articulation *t, tree_link l)
 {
   spatial_motion m = load_motion(t, l.k, (uint)WORK_VELOCITY);
   spatial_force p = {moments_times(t, l, m.angular), scale(m.linear, mass_of_link(t, l))};
-  return force_at(p, negate(arm));
+  return p;
+}
+/* About the point at -arm from its centre. */
+SHARED spatial_force momentum_of_link(const articulation *t, tree_link l, vec3 arm)
+{
+  return force_at(own_momentum_of_link(t, l), negate(arm));
 }
 /* About the centre of a free root. */
 SHARED spatial_force with_momentum_of_link(spatial_force sum, const articulation *t, tree_link l)

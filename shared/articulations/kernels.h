@@ -7,6 +7,7 @@
 #include "shared/articulations/contact.h"
 #include "shared/articulations/couplings.h"
 #include "shared/articulations/joint.h"
+#include "shared/articulations/joint_forces.h"
 #include "shared/articulations/step.h"
 #include "shared/articulations/tree_contacts.h"
 #ifndef TANDEM_LANES /* ITEM kernels take one item at a time */

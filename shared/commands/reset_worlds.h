@@ -37,12 +37,13 @@ SHARED void reset_touching_item(GLOBAL const uint *reset_world, GLOBAL const uin
   for (uint k = cached_start[body]; k < cached_start[body + 1u]; ++k) cached_touching[k] = 0u;
 }
 
-SHARED void reset_forces_item(GLOBAL const uint *reset_world, GLOBAL float4 *body_force, uint bodies, uint i)
+/* rows: two of each body. */
+SHARED void reset_forces_item(GLOBAL const uint *reset_world, GLOBAL float4 *rows, uint bodies, uint i)
 {
   uint body = reset_body(reset_world, bodies, i);
   vec4 zero = make_vec4(R(0.0), R(0.0), R(0.0), R(0.0));
-  store_float4(body_force, body * 2u, zero);
-  store_float4(body_force, body * 2u + 1u, zero);
+  store_float4(rows, body * 2u, zero);
+  store_float4(rows, body * 2u + 1u, zero);
 }
 
 #endif

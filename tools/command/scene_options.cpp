@@ -110,6 +110,8 @@ SceneOptions::SceneOptions(CLI::App &parser, bool one_backend) : one_backend_(on
                   "prove in every step that no batch touches a moving body twice and that every contact is in one; "
                   "exit status 1 if not");
   parser.add_flag("--sleep", sleep_, "islands of bodies at rest fall asleep; what sleeps costs nothing");
+  parser.add_flag("--tree-joint-forces", tree_joint_forces_,
+                  "compute the forces of the joints of articulations, which programs read with read_joints");
   parser.add_flag("--no-specialise", no_specialise_,
                   "build and run every feature, needed or not: the same bits, slower");
   parser.add_flag("--allow-outside-files", outside_files_,
@@ -157,6 +159,7 @@ Settings SceneOptions::settings() const
   settings.check = check_;
   settings.events = events_;
   settings.sleeping = sleep_;
+  settings.tree_joint_forces = tree_joint_forces_;
   settings.specialise = !no_specialise_;
   validate(settings);
   return settings;
@@ -224,6 +227,7 @@ std::string SceneOptions::typed_again(const std::string &broadphase) const
   if (check_) text += " --check";
   if (events_) text += " --events events.json";
   if (sleep_) text += " --sleep";
+  if (tree_joint_forces_) text += " --tree-joint-forces";
   if (no_specialise_) text += " --no-specialise";
   return text;
 }

@@ -53,7 +53,7 @@ private:
   std::string solver_, broadphase_, bounds_, midphase_, narrowphase_, support_, support_cells_, batching_, max_pairs_;
   std::string coordinates_ = "maximal";
   bool no_specialise_ = false, sleep_ = false, inexact_ = false, check_ = false, events_ = false,
-       outside_files_ = false;
+       outside_files_ = false, tree_joint_forces_ = false;
 };
 
 } // namespace tandem

@@ -106,8 +106,9 @@ struct JointBreak {
  * has no force and no torque. */
 struct JointReading {
   /* Of its impulses in the last substep, on body b at the origin of frame b, in axes of the world; body a gets the
-   * opposite. The torque is about that origin. Held axes, limits, springs, motors and friction are in them. NaN of a
-   * joint of an articulation, which holds its bodies without impulses. */
+   * opposite. The torque is about that origin. Held axes, limits, springs, motors and friction are in them. Those of a
+   * joint of an articulation, which holds its bodies without impulses, follow from the momenta of the links
+   * (docs/articulations.md), with Settings::tree_joint_forces; without it they are NaN. */
   std::array<double, 3> force{}, torque{}; /* N, N m */
   /* The coordinates in the order of Joint::directions and rotations, with or without a JointAxis, and how fast they
    * change; 0 for what a type has no axis for. */

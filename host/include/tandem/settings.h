@@ -80,6 +80,8 @@ struct Settings {
                                 radius in proportion */
   float sleep_time = 0.5f;   /* s, > 0: bodies that have rested for so long fall asleep with their island */
   bool moved_bodies = false; /* lists the bodies that each step moves (World::moved_bodies); changes no motion */
+  /* World::read_joints tells the forces of the joints of articulations, too; changes no motion. */
+  bool tree_joint_forces = false;
   uint32_t max_pairs =
       most_pairs;         /* 1 .. most_pairs: a step with more pairs fails, so memory never grows beyond them */
   bool specialise = true; /* false: every feature is built and run, with the same bits */

@@ -44,8 +44,9 @@ void launch_soft_step_substep(StepLaunches &step, MassSplit &overflow, uint32_t 
   overflow.warm_start();
   warm_start_rolling(step);
   solve_in_turns(step, overflow, passes_of(step, substep));
-  step.move_bodies();
   const bool last = substep + 1 == step.settings().substeps;
+  if (last && step.balances_trees()) step.run(Kernel::split_tree_balance);
+  step.move_bodies();
   solve(step, overflow, last ? PASS_LAST : PASS_RELAXING);
   follow_joints(step, substep);
 }
@@ -69,6 +70,7 @@ void launch_soft_step(StepLaunches &step)
     launch_soft_step_substep(step, overflow, substep);
   apply_restitution(step, overflow);
   if (step.has(FEATURE_RESTITUTION)) step.for_each_link_color(PASS_BOUNCING);
+  step.balance_trees();
   bounce_joints(step);
 }
 

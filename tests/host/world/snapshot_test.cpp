@@ -342,7 +342,7 @@ TEST_CASE("messages about snapshots say what is wrong", "[sanitizer]")
   other = snapshot;
   other[8] = std::byte{12};
   CHECK_THAT(message_of(other), ContainsSubstring("snapshot: the snapshot has format 12; Tandem ") &&
-                                    ContainsSubstring("reads format 11"));
+                                    ContainsSubstring("reads format 12"));
   other = snapshot;
   other[100] ^= std::byte{1};
   CHECK_THAT(message_of(other), ContainsSubstring("do not have the hash of its header; it is damaged"));
@@ -555,6 +555,7 @@ TEST_CASE("every field of a body, a material and the settings is in a snapshot",
                     true,
                     0.25f,
                     0.75f,
+                    true,
                     true,
                     10,
                     false,
