@@ -225,6 +225,44 @@ TEST_CASE("parity on CPU: trees of one shape of which some sleep", "[articulatio
   require_parity(scene, {"serial", "tbb:threads=2,lanes=8"}, 150, settings);
 }
 
+Settings with_forces(Settings settings)
+{
+  settings.tree_joint_forces = true;
+  return settings;
+}
+
+TEST_CASE("parity on CPU: forces of the joints of articulations, with contacts, bounces, loops and couplings",
+          "[articulations]")
+{
+  Scene bouncing = tree_crowd(8, 8, 70);
+  bouncing.materials[0].restitution = 0.6f;
+  require_parity(bouncing, cpu_backends(), 25, with_forces(watched()));
+  require_parity(joined_trees(6), cpu_backends(), 20, with_forces({}));
+  require_parity(coupled_trees(9, 6), cpu_backends(), 10, with_forces({}));
+  require_parity("humanoid:n=20,stiffness=0,height=0.3", cpu_backends(), 20, with_forces({}));
+}
+
+TEST_CASE("parity on OpenCL: forces of the joints of articulations")
+{
+  require_pocl();
+  Scene bouncing = joined_trees(7, 6);
+  bouncing.materials[0].restitution = 0.6f;
+  require_parity(bouncing, {"serial", "cl:pocl"}, 6, with_forces(build_of_all_features()));
+}
+
+TEST_CASE("a world that tells the forces of its trees goes on from its snapshot with the same bits, anywhere")
+{
+  require_goes_on(joined_trees(8, 6), with_forces(watched()), [](const World &world, const World &original) {
+    CHECK(world.settings().tree_joint_forces == original.settings().tree_joint_forces);
+  });
+}
+
+TEST_CASE("parity on CPU: worlds of a batch tell the forces of their trees with the bits of worlds alone")
+{
+  BatchBesideWorlds(tests::seeded_scenes("humanoid:n=2,stiffness=0,height=0.3", 4), "tbb:threads=3", with_forces({}))
+      .step(30);
+}
+
 TEST_CASE("parity on OpenCL: coupled joints of articulations")
 {
   require_pocl();
