@@ -67,16 +67,17 @@ SHARED spatial_force choose_force(mask m, spatial_force a, spatial_force b)
   return c;
 }
 
-/* The same motion, and the same force, at the point that is `arm` away. */
+/* The same motion, and the same force, at the point that is `arm` away. A parameter that changed here would change for
+ * the caller, too, on rusticl (docs/exactness.md). */
 SHARED spatial_motion motion_at(spatial_motion m, vec3 arm)
 {
-  m.linear = add(m.linear, cross3(m.angular, arm));
-  return m;
+  spatial_motion there = {m.angular, add(m.linear, cross3(m.angular, arm))};
+  return there;
 }
 SHARED spatial_force force_at(spatial_force f, vec3 arm)
 {
-  f.moment = subtract(f.moment, cross3(arm, f.force));
-  return f;
+  spatial_force there = {subtract(f.moment, cross3(arm, f.force)), f.force};
+  return there;
 }
 
 SHARED real power_of(spatial_force f, spatial_motion m) { return dot3(f.moment, m.angular) + dot3(f.force, m.linear); }
