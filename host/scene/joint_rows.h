@@ -21,7 +21,6 @@ TANDEM_API std::span<const JointRow> joint_rows(); /* in the order of the enum *
 TANDEM_API const JointRow &row_of(JointType type);
 
 /* A place of Scene::joints without a joint, as one that was destroyed leaves it. */
-/* What is left of a joint that was destroyed. */
 inline Joint vacant_joint()
 {
   Joint vacant;

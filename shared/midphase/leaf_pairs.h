@@ -6,9 +6,9 @@
  *
  * It runs between broadphase and narrowphase in scenes with compounds or meshes. Pairs are counted, the counts are
  * scanned, and the pairs are written. The list has no gaps and the order of the trees, and if it exceeds its capacity,
- * the step runs again. Counting keeps the first few pairs of leaves of two bodies, so that writing finds them again only
- * where there are more. A body without a tree is one leaf. All pairs of leaves of one pair of bodies are adjacent, so
- * that merge.h can join their manifolds. A pair of bodies without any is dropped.
+ * the step runs again. Counting keeps the first few pairs of leaves of two bodies, so that writing looks for them again
+ * only where there are more. A body without a tree is one leaf. All pairs of leaves of one pair of bodies are adjacent,
+ * so that merge.h can join their manifolds. A pair of bodies without any is dropped.
  *
  * One leaf against a tree needs no stack; subtree_pairs.h does the same by work-groups. Two trees are descended
  * together: the larger box of the two is opened unless it is a leaf, so the stack holds at most one entry for each

@@ -1,6 +1,5 @@
 /* Joints that come and go one at a time: the bits are those of calls that each make all joints anew, and the time of a
  * call does not grow with the joints. */
-#include <chrono>
 #include <set>
 
 #include "host/scene/articulation_buffers.h"
@@ -160,8 +159,8 @@ TEST_CASE("pending joints: all that reads them has them")
   CHECK(world.joint_ids().size() == 5);
 }
 
-/* When each call coloured all joints anew, this took minutes. */
-TEST_CASE("pending joints: thousands of single calls take as long as they are many")
+/* When each call coloured all joints anew, this took longer than tests are given. */
+TEST_CASE("pending joints: thousands come, go and come again by single calls")
 {
   constexpr uint32_t joints = 20000;
   Random random(1);
@@ -169,7 +168,6 @@ TEST_CASE("pending joints: thousands of single calls take as long as they are ma
   for (uint32_t k = 0; k <= joints; ++k) add_body(scene, BodyType::dynamic, sphere_shape(0.1f), {2.0 * k, 0, 0});
   scene.joints.push_back(ball_between(0, 1, random));
   World world(scene, {}, {"serial", {}, false});
-  const auto began = std::chrono::steady_clock::now();
   std::vector<JointId> ids;
   for (uint32_t k = 1; k < joints; ++k) ids.push_back(world.create_joint(ball_between(k, k + 1, random)));
   world.step();
@@ -179,5 +177,5 @@ TEST_CASE("pending joints: thousands of single calls take as long as they are ma
   CHECK(world.joint_ids().size() == 1);
   for (uint32_t k = 1; k < joints; ++k) world.create_joint(ball_between(k, k + 1, random));
   world.step();
-  CHECK(std::chrono::steady_clock::now() - began < std::chrono::seconds(10));
+  CHECK(world.joint_ids().size() == joints);
 }
