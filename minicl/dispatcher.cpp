@@ -22,6 +22,7 @@
 #include <tandem/error.h>
 #include "host/runtime/interface/floating_point.h"
 #include "minicl/kernel_table.h"
+#include "minicl/launch_chains.h"
 #include "minicl/parallel_region.h"
 #include "minicl/reference_storage.h"
 #include "minicl/thread_sanitizer.h"
@@ -136,7 +137,8 @@ public:
       for (uint32_t lanes = options.lanes; lanes >= 4; lanes /= 2)
         lanes_.push_back({lanes, ranges_of(lanes_width(lanes))});
     want_threads(options.threads);
-    if (threads_ == 1) return;
+    if (threads_ == 1 && lanes_.empty()) return;
+    chains_.reserve(launches_at_once);
     arguments_.reserve(launches_at_once * arguments_of_usual_kernels);
     first_argument_.reserve(launches_at_once);
   }
@@ -144,8 +146,9 @@ public:
   const std::string &name() const override { return name_; }
   Storage &storage() override { return storage_; }
   /* A world has been refused before; tools launch kernels without one. */
-  void prepare(Features, const std::vector<Kernel> &kernels) override
+  void prepare(Features features, const std::vector<Kernel> &kernels) override
   {
+    if ((features & FEATURE_ARTICULATIONS) != 0) has_trees_ = true;
     for (const Kernel kernel : kernels)
       if (index_of(kernel) < kernel_count && (row_of(kernel).feature & ~built_features()) != 0)
         throw InputError(fmt::format("{}: this library is built without the kernel {} (-DTANDEM_FEATURES=\"{}\")",
@@ -177,16 +180,18 @@ public:
     ++time.launches;
   }
 
+  /* One thread takes series for their chains alone. */
   uint32_t most_items_of_series() const override
   {
-    return threads_ > 1 && order_ == Order::forward && !profiling_ ? UINT32_MAX : 0;
+    const bool takes_series = threads_ > 1 || (has_trees_ && !lanes_.empty());
+    return takes_series && order_ == Order::forward && !profiling_ ? UINT32_MAX : 0;
   }
   size_t most_launches_of_series() const override { return launches_at_once; }
 
   /* The arena is opened by the first launch that is split. */
   void run_series(std::span<const BoundLaunch> series, void *counts) override
   {
-    if (!arena_ || profiling_) return Backend::run_series(series, counts);
+    if ((threads_ > 1 && !arena_) || profiling_) return Backend::run_series(series, counts);
     size_t whole = 0;
     while (whole < series.size() && !faults::strikes(faults::Site::launch)) ++whole;
     run_whole(series.first(whole), static_cast<const uint32_t *>(counts));
@@ -228,6 +233,7 @@ private:
     launches += series.size();
     SeriesOfLaunches rows(*this, series, counts);
     const ExactFloatingPoint environment;
+    if (threads_ == 1) return rows.run_alone();
     region_->begin(rows, threads_for(series));
     if (!region_->has_ended()) run_region();
     if (!region_->has_ended()) throw std::runtime_error("TBB left a series of launches before its end");
@@ -244,15 +250,33 @@ private:
         backend_.first_argument_.push_back(backend_.arguments_.size());
         append_arguments(bound.launch, bound.arguments, backend_.arguments_);
       }
+      backend_.chains_.find(series);
     }
-    size_t count() const override { return series_.size(); }
-    Range range_of(size_t launch) const override
+    size_t count() const override { return backend_.chains_.count(); }
+    Range range_of(size_t chain) const override
     {
-      const Kernel kernel = series_[launch].launch.kernel;
-      const auto [first, last] = MiniclBackend::range_of(series_[launch].launch, counts_);
-      return {first, last, items_of_part(kernel), backend_.has_lanes(kernel)};
+      const Launch &launch = series_[backend_.chains_.at(chain).first].launch;
+      const auto [first, last] = MiniclBackend::range_of(launch, counts_);
+      return {first, last, items_of_part(launch.kernel), backend_.has_lanes(launch.kernel)};
     }
-    void run(size_t launch, uint32_t first, uint32_t last) override
+    void run(size_t number, uint32_t first, uint32_t last) override
+    {
+      const LaunchChains::Chain chain = backend_.chains_.at(number);
+      if (chain.launches() == 1) return run_launch(chain.first, first, last);
+      for_each_block_of_trees(first, last, [&](uint32_t begin, uint32_t end) {
+        for (size_t launch = chain.first; launch < chain.last; ++launch) run_launch(launch, begin, end);
+      });
+    }
+    void run_alone()
+    {
+      for (size_t chain = 0; chain < count(); ++chain) {
+        const Range range = range_of(chain);
+        if (range.last > range.first) run(chain, range.first, range.last);
+      }
+    }
+
+  private:
+    void run_launch(size_t launch, uint32_t first, uint32_t last) const
     {
       const Kernel kernel = series_[launch].launch.kernel;
       void *const *const arguments = backend_.arguments_.data() + backend_.first_argument_[launch];
@@ -260,7 +284,6 @@ private:
       else backend_.run_in_lanes(kernel, arguments, first, last);
     }
 
-  private:
     MiniclBackend &backend_;
     std::span<const BoundLaunch> series_;
     const uint32_t *counts_;
@@ -407,6 +430,8 @@ private:
   std::vector<Lanes> lanes_;           /* from the widest; none: one item at a time */
   std::vector<void *> arguments_;      /* of the launch or the series, so that it allocates nothing */
   std::vector<size_t> first_argument_; /* of each launch of the series */
+  LaunchChains chains_;                /* of the series */
+  bool has_trees_ = false;             /* whether a scene has asked for kernels of articulations */
   Storage &storage_;
   std::atomic<uint32_t> threads_seen_ = 0;
   bool profiling_ = false;
