@@ -11,6 +11,7 @@
 
 #include "host/runtime/interface/address_sanitizer.h"
 #include "host/runtime/interface/faults.h"
+#include "host/runtime/interface/huge_page_pool.h"
 
 namespace tandem {
 namespace {
@@ -19,13 +20,22 @@ namespace {
  * goes to address translation. */
 constexpr size_t small_page = 4096, huge_page = size_t{2} << 20;
 
+/* AddressSanitizer knows the ends of a buffer, and whether it is there still, by its allocation. */
+#if defined(__SANITIZE_ADDRESS__)
+constexpr bool pools_buffers = false;
+#else
+constexpr bool pools_buffers = true;
+#endif
+
 class HostStorage : public Storage {
 public:
   const char *what() const override { return "the host's memory"; }
   void *allocate(Element, size_t bytes, void *) override
   {
     if (faults::strikes(faults::Site::allocation) || bytes > SIZE_MAX - huge_page) throw std::bad_alloc();
-    const size_t page = bytes < 2 * huge_page ? small_page : huge_page;
+    if (pools_buffers && bytes >= HugePagePool::least && bytes < HugePagePool::most)
+      return std::memset(pool_.allocate(bytes), 0, bytes);
+    const size_t page = bytes < HugePagePool::most ? small_page : huge_page;
     const size_t rounded = (std::max<size_t>(bytes, 1) + page - 1) / page * page;
     void *memory = std::aligned_alloc(page, rounded);
     if (!memory) throw std::bad_alloc();
@@ -34,7 +44,10 @@ public:
     forbid_access(memory, bytes, rounded);
     return memory;
   }
-  void release(void *handle) noexcept override { std::free(handle); }
+  void release(void *handle) noexcept override
+  {
+    if (!pools_buffers || !pool_.release(handle)) std::free(handle);
+  }
   void write(void *handle, size_t offset, const void *from, size_t bytes) override
   {
     std::memcpy(static_cast<char *>(handle) + offset, from, bytes);
@@ -44,6 +57,9 @@ public:
     std::memcpy(to, static_cast<const char *>(handle) + offset, bytes);
   }
   void copy(void *from, void *to, size_t bytes) override { std::memcpy(to, from, bytes); }
+
+private:
+  HugePagePool pool_;
 };
 
 } // namespace
