@@ -79,19 +79,18 @@ void World::Implementation::settle_joints()
   if (!pending_joints) return;
   const minicl::ExactFloatingPoint environment;
   std::unique_ptr<PendingJoints> pending = std::move(pending_joints);
-  joints_wait = false;
   try {
     std::vector<uint32_t> changed;
     for (const auto &change : pending->changes) changed.push_back(change.first);
     exchange_joints(pending->joints, pending->slots, changed, recolored_by(*pending));
   } catch (...) {
     pending_joints = std::move(pending);
-    joints_wait = true;
     throw;
   }
+  joints_wait = false; /* not before: whoever reads this goes on without the lock */
 }
 
-/* For what may be asked while others read. */
+/* For what may be asked while others read: one thread puts the joints into the world, and the others wait for it. */
 void World::Implementation::settle_joints_in_turn()
 {
   if (!joints_wait) return;

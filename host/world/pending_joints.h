@@ -8,7 +8,8 @@
  *        +-------------+-------------+--> PendingJoints --> Implementation::exchange_joints
  *
  * The world is then what it would be if each call had done so, wherever it is read in between: contacts forget their
- * colours as after each single call (host/scene/joint_recoloring.h).
+ * colours as after each single call (host/scene/joint_recoloring.h). States that were kept stay, though one of these
+ * joints alone would have needed other tables, if it is gone again.
  */
 #pragma once
 

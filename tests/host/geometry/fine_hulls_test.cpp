@@ -1,7 +1,5 @@
-/* Hulls of tens of thousands of points: what they are, bit for bit, and that they take a few times as long as the exact
- * triangles that they are made of. */
+/* Hulls of tens of thousands of points, bit for bit. */
 #include <cmath>
-#include <ctime>
 
 #include <tandem/round_to_float.h>
 #include <tandem/scene.h>
@@ -9,7 +7,6 @@
 #include "host/base/hash.h"
 #include "host/base/random.h"
 #include "host/geometry/convex_hull.h"
-#include "host/geometry/quickhull.h"
 #include "tests/catch.h"
 
 namespace tandem::fine_hulls {
@@ -55,13 +52,6 @@ uint64_t hash_of(const ConvexHull &hull)
   return hash;
 }
 
-template <class Work> double seconds_of(const Work &work)
-{
-  const std::clock_t began = std::clock();
-  work();
-  return double(std::clock() - began) / CLOCKS_PER_SEC;
-}
-
 } // namespace
 
 /* Of the hulls as they were before anything was left out that gives the same. */
@@ -71,17 +61,6 @@ TEST_CASE("fine hulls: their faces and planes are known, bit for bit")
   CHECK(hash_of(*hull_shape(bowl(60, 0.001), "shallow bowl").hull) == 0x4c7e8f09c90922e);
   CHECK(hash_of(*hull_shape(any_on_sphere(5000), "sphere").hull) == 0x1f88ba46b75a6b99);
   CHECK(hash_of(*hull_shape(any_on_sphere(40000), "rough sphere").hull) == 0x9210f578eb4cb9d2);
-}
-
-TEST_CASE("fine hulls: a hull takes a few times as long as its exact triangles")
-{
-  const std::vector<Vec3> points = bowl(150, 1);
-  std::vector<Vector> exact;
-  for (const Vec3 &p : points) exact.push_back(on_hull_grid(vector_of(p) / 4));
-  const double triangles = seconds_of([&] { CHECK(hull_triangles(exact, 0).size() > 1000); });
-  const double whole = seconds_of([&] { CHECK(hull_shape(points, "points").hull->faces.size() > 1000); });
-  CAPTURE(triangles, whole);
-  CHECK(whole < 6 * triangles); /* 3.5; ten where each hull was found three times, and all twice */
 }
 
 } // namespace tandem::fine_hulls

@@ -1,6 +1,8 @@
 /* Joints that come and go one at a time: the bits are those of calls that each make all joints anew, and the time of a
  * call does not grow with the joints. */
+#include <atomic>
 #include <set>
+#include <thread>
 
 #include "host/scene/articulation_buffers.h"
 #include "host/scene/joint_recoloring.h"
@@ -157,6 +159,26 @@ TEST_CASE("pending joints: all that reads them has them")
   world.create_joint(ball_between(1, 10, random));
   world.step();
   CHECK(world.joint_ids().size() == 5);
+}
+
+TEST_CASE("pending joints: threads that read at the same time all see them")
+{
+  Random random(5);
+  World world(heap_of_boxes(300), {}, {"serial", {}, false});
+  world.create_joint(ball_between(1, 2, random));
+  for (int round = 0; round < 20; ++round) {
+    const size_t before = world.scene().joints.size();
+    for (uint32_t k = 2; k < 200; ++k) world.create_joint(ball_between(k, k + 1, random));
+    std::atomic<uint32_t> there = 0, wrong = 0;
+    std::vector<std::thread> readers;
+    for (int k = 0; k < 4; ++k)
+      readers.emplace_back([&] {
+        for (++there; there < 4;) std::this_thread::yield();
+        for (int look = 0; look < 20; ++look) wrong += world.scene().joints.size() != before + 198;
+      });
+    for (std::thread &reader : readers) reader.join();
+    REQUIRE(wrong == 0);
+  }
 }
 
 /* When each call coloured all joints anew, this took longer than tests are given. */
