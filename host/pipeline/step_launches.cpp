@@ -157,9 +157,9 @@ void StepLaunches::begin_substep(uint32_t substep)
 void StepLaunches::move_bodies()
 {
   run(Kernel::integrate_positions);
-  if (has_links()) run(Kernel::move_articulations);
   if (has(FEATURE_LOCKS) && has(FEATURE_GYROSCOPIC)) run(Kernel::lock_bodies);
   if (plan_.forces) run(Kernel::follow_forces);
+  if (has_links()) run(Kernel::move_articulations); /* last, because links are where their trees have them */
 }
 
 void StepLaunches::scan_pairs(Buffer starts, uint32_t length)
