@@ -25,7 +25,8 @@ JointRecoloring::JointRecoloring(const Scene &scene, const JointedLinks &links, 
       bit_[graph.order[place]] = uint64_t{1} << color;
   for (uint32_t joint = 0; joint < scene.joints.size(); ++joint)
     list(edges_.emplace_back(edge_of(scene.joints[joint], links)), joint, true);
-  for (size_t body = 0; body < used_.size(); ++body)
+  const size_t known = std::min(used_.size(), graph.body_colors.size() / 2); /* bodies that came since have no joints */
+  for (size_t body = 0; body < known; ++body)
     used_[body] = uint64_t{graph.body_colors[2 * body]} | uint64_t{graph.body_colors[2 * body + 1]} << 32;
 }
 
