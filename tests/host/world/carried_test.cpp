@@ -36,6 +36,7 @@ const std::vector<Case> cases = {
     {TANDEM_SOURCE_DIR "/tests/scenes/rolling_balls.json", Solver::soft_step, Broadphase::hybrid},
     {"ragdolls:n=2,height=0", Solver::soft_step, Broadphase::grid},
     {"crane:rows=1,length=1", Solver::soft_step, Broadphase::grid},
+    {"humanoid:n=1", Solver::soft_step, Broadphase::grid},
     {"spheres:n=12,height=0", Solver::jacobi, Broadphase::grid}};
 
 /* After so many steps; with events, forces and sleeping, which carry buffers of their own. No body rests long enough to
@@ -48,6 +49,7 @@ std::unique_ptr<World> world_of(const Case &c, uint64_t steps)
   settings.events = true;
   const Scene scene = load_scene(c.scene);
   settings.sleeping = scene.joints.empty();
+  settings.tree_joint_forces = !scene.articulations.empty();
   auto world = std::make_unique<World>(scene, settings, Placement{"serial", {}, false});
   world->add_force(world->id_of(1), {0, 0.01f, 0});
   for (uint64_t k = 0; k < steps; ++k) world->step();
