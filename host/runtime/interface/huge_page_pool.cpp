@@ -10,7 +10,7 @@
 namespace tandem {
 namespace {
 
-constexpr size_t small_page_of_pool = 4096, huge_page_of_pool = size_t{2} << 20, bytes_of_piece = size_t{16} << 20;
+constexpr size_t bytes_of_piece = size_t{16} << 20;
 
 } // namespace
 
@@ -40,7 +40,7 @@ HugePagePool::Piece &HugePagePool::add_piece()
 {
   std::vector<Block> blocks{{0, bytes_of_piece, false}};
   pieces_.reserve(pieces_.size() + 1);
-  auto *memory = static_cast<char *>(std::aligned_alloc(huge_page_of_pool, bytes_of_piece));
+  auto *memory = static_cast<char *>(std::aligned_alloc(huge_page, bytes_of_piece));
   if (!memory) throw std::bad_alloc();
   madvise(memory, bytes_of_piece, MADV_HUGEPAGE); /* advice; ignoring it costs only time */
   return pieces_.emplace_back(Piece{memory, std::move(blocks)});
@@ -48,7 +48,7 @@ HugePagePool::Piece &HugePagePool::add_piece()
 
 void *HugePagePool::allocate(size_t bytes)
 {
-  const size_t rounded = (bytes + small_page_of_pool - 1) / small_page_of_pool * small_page_of_pool;
+  const size_t rounded = (bytes + small_page - 1) / small_page * small_page;
   const std::lock_guard guard(mutex_);
   for (Piece &piece : pieces_) {
     const size_t block = free_block(piece, rounded);

@@ -14,10 +14,12 @@
 
 namespace tandem {
 
+constexpr size_t small_page = 4096, huge_page = size_t{2} << 20;
+
 class HugePagePool {
 public:
   /* Both in bytes. Larger buffers have huge pages of their own; smaller ones are few. */
-  static constexpr size_t least = size_t{64} << 10, most = size_t{4} << 20;
+  static constexpr size_t least = size_t{64} << 10, most = 2 * huge_page;
 
   HugePagePool() = default;
   HugePagePool(const HugePagePool &) = delete;

@@ -16,10 +16,6 @@
 namespace tandem {
 namespace {
 
-/* With a million bodies, searches read scattered locations in tens of megabytes; with small pages most of their time
- * goes to address translation. */
-constexpr size_t small_page = 4096, huge_page = size_t{2} << 20;
-
 /* AddressSanitizer knows the ends of a buffer, and whether it is there still, by its allocation. */
 #if defined(__SANITIZE_ADDRESS__)
 constexpr bool pools_buffers = false;
@@ -35,6 +31,8 @@ public:
     if (faults::strikes(faults::Site::allocation) || bytes > SIZE_MAX - huge_page) throw std::bad_alloc();
     if (pools_buffers && bytes >= HugePagePool::least && bytes < HugePagePool::most)
       return std::memset(pool_.allocate(bytes), 0, bytes);
+    /* With a million bodies, searches read scattered locations in tens of megabytes; with small pages most of their
+     * time goes to address translation. */
     const size_t page = bytes < HugePagePool::most ? small_page : huge_page;
     const size_t rounded = (std::max<size_t>(bytes, 1) + page - 1) / page * page;
     void *memory = std::aligned_alloc(page, rounded);
