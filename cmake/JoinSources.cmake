@@ -38,4 +38,6 @@ set_source_files_properties(${PROJECT_SOURCE_DIR}/host/scene/articulations.cpp
   ${PROJECT_SOURCE_DIR}/host/world/joint_coordinates.cpp PROPERTIES
   SKIP_UNITY_BUILD_INCLUSION ON)
 # TBB's headers and the macros of shared/ do not go together.
-set_source_files_properties(${PROJECT_SOURCE_DIR}/host/runtime/parts.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+set_source_files_properties(${PROJECT_SOURCE_DIR}/host/runtime/parts.cpp
+  ${PROJECT_SOURCE_DIR}/host/runtime/part_threads.cpp PROPERTIES
+  SKIP_UNITY_BUILD_INCLUSION ON)

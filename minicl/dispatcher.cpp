@@ -440,6 +440,8 @@ private:
 
 } // namespace
 
+uint32_t threads_of_machine() { return static_cast<uint32_t>(tbb::this_task_arena::max_concurrency()); }
+
 std::unique_ptr<Backend> make_backend(const std::string &name, const Options &options)
 {
 #if defined(TANDEM_PORTABLE_KERNELS_ONLY)
@@ -449,7 +451,7 @@ std::unique_ptr<Backend> make_backend(const std::string &name, const Options &op
         ": this build has kernels neither in double nor in reverse; one without TANDEM_PORTABLE_KERNELS_ONLY has");
 #endif
   Options filled = options;
-  if (filled.threads == 0) filled.threads = static_cast<uint32_t>(tbb::this_task_arena::max_concurrency());
+  if (filled.threads == 0) filled.threads = threads_of_machine();
   if (filled.lanes == 0) filled.lanes = widest_lanes();
   return std::make_unique<MiniclBackend>(name, filled);
 }

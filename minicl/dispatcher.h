@@ -22,6 +22,9 @@ struct Options {
 
 std::unique_ptr<Backend> make_backend(const std::string &name, const Options &options);
 
+/* What Options::threads of 0 stands for. */
+uint32_t threads_of_machine();
+
 /* The number of threads that have run items of split launches so far, for tests that must know whether there were
  * several. It applies to backends of make_backend only. */
 uint32_t threads_used(const Backend &backend);

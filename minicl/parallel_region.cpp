@@ -4,9 +4,7 @@
 #include <algorithm>
 #include <thread>
 
-#if defined(__x86_64__)
-#include <immintrin.h>
-#endif
+#include "minicl/pause.h"
 
 namespace tandem::minicl {
 namespace {
@@ -14,15 +12,6 @@ namespace {
 constexpr uint32_t looks_until_help = 256, looks_until_yield = 2048;
 constexpr uint32_t parts_of_thread = 8; /* where items differ, so that threads end together */
 constexpr uint32_t widest_lanes_of_all = 16;
-
-void pause_briefly()
-{
-#if defined(__x86_64__)
-  _mm_pause();
-#elif defined(__aarch64__)
-  __asm__ volatile("yield");
-#endif
-}
 
 } // namespace
 

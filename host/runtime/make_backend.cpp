@@ -54,7 +54,7 @@ Backend::Order order_from(const std::string &text, const std::string &value)
   refuse(text, fmt::format("order '{}' is not forward, backward or shuffled", value));
 }
 
-std::unique_ptr<Backend> make_cpu_backend(const std::string &text, const std::string &kind, size_t colon)
+minicl::Options cpu_options_of(const std::string &text, const std::string &kind, size_t colon)
 {
   minicl::Options options;
   options.reference = kind == "reference";
@@ -70,16 +70,30 @@ std::unique_ptr<Backend> make_cpu_backend(const std::string &text, const std::st
                                  minicl::widest_lanes()));
     } else refuse(text, fmt::format("'{}' is not an option of {}", name, kind));
   }
-  return minicl::make_backend(text, options);
+  return options;
 }
 
 } // namespace
+
+std::optional<NamedThreads> threads_named(const std::string &text)
+{
+  const size_t colon = text.find(':');
+  if (text.substr(0, colon) != "tbb") return std::nullopt;
+  try {
+    const minicl::Options options = cpu_options_of(text, "tbb", colon);
+    const std::string lanes = options.lanes ? fmt::format(",lanes={}", options.lanes) : "";
+    return NamedThreads{options.threads ? options.threads : minicl::threads_of_machine(), "tbb:threads=1" + lanes};
+  } catch (const InputError &) {
+    return std::nullopt; /* make_backend says why */
+  }
+}
 
 std::unique_ptr<Backend> make_backend(const std::string &text, bool allow_inexact)
 {
   const size_t colon = text.find(':');
   const std::string kind = text.substr(0, colon);
-  if (kind == "serial" || kind == "tbb" || kind == "reference") return make_cpu_backend(text, kind, colon);
+  if (kind == "serial" || kind == "tbb" || kind == "reference")
+    return minicl::make_backend(text, cpu_options_of(text, kind, colon));
   if (kind == "cl")
     return opencl::make_backend(text, colon == std::string::npos ? "" : text.substr(colon + 1), allow_inexact);
   refuse(text, "unknown");

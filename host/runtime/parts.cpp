@@ -2,43 +2,18 @@
 #include "host/runtime/parts.h"
 
 #include <algorithm>
-#include <exception>
-#include <mutex>
 
 #include <tbb/parallel_for.h>
 #include <tbb/partitioner.h>
 #include <tbb/task_arena.h>
 #include <tbb/task_group.h>
 
+#include "host/runtime/first_failure.h"
 #include "host/runtime/interface/floating_point.h"
 #include "minicl/thread_sanitizer.h"
 #include "minicl/worker_threads.h"
 
 namespace tandem {
-namespace {
-
-/* The exception of the lowest part that failed. */
-class FirstFailure {
-public:
-  void note(size_t part)
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    if (failure_ && part_ < part) return;
-    failure_ = std::current_exception();
-    part_ = part;
-  }
-  void rethrow() const
-  {
-    if (failure_) std::rethrow_exception(failure_);
-  }
-
-private:
-  std::mutex mutex_;
-  std::exception_ptr failure_;
-  size_t part_ = 0;
-};
-
-} // namespace
 
 size_t parts_at_once()
 {
@@ -56,11 +31,7 @@ void run_parts(size_t parts, PartFunction run)
   const auto run_one = [&](size_t part) TANDEM_UNWATCHED {
     const minicl::ExactFloatingPoint environment; /* threads of TBB may have another one */
     order.items_begin();
-    try {
-      run(part);
-    } catch (...) {
-      failure.note(part);
-    }
+    failure.run(part, [&] { run(part); });
     order.items_end();
   };
   order.launch_begins();

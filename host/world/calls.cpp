@@ -3,7 +3,6 @@
  *
  * A call is taken whole or not at all: every handle and every number is checked before the first command is added. */
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -13,6 +12,7 @@
 #include "host/base/finite_vector.h"
 #include "host/runtime/interface/floating_point.h"
 #include "host/scene/parameters.h"
+#include "host/world/call_checks.h"
 #include "host/world/implementation.h"
 #include "shared/commands/command_codes.h"
 
@@ -35,67 +35,6 @@ CommandList::Rows rows_at_point(const Vec3 &vector, const Point &point)
 {
   const auto [high, low] = double_float3_of(point);
   return {row_of_vector(vector), high, low};
-}
-
-[[noreturn]] void refuse_entry(const char *call, size_t index, const std::string &why)
-{
-  throw InputError(fmt::format("{}: entry {}: {}", call, index, why));
-}
-
-template <class Vector> void check_vector(const char *call, size_t index, const char *what, const Vector &v)
-{
-  if (!is_finite_vector(v))
-    refuse_entry(call, index, fmt::format("{} is {}; three finite numbers are needed", what, vector_text(v)));
-}
-
-void check_rotation(const char *call, size_t index, const Quat &q)
-{
-  double square = 0;
-  for (const float x : q) square += double{x} * x;
-  if (!(std::abs(square - 1) < 2e-3))
-    refuse_entry(
-        call, index,
-        fmt::format("orientation is [{}, {}, {}, {}]; a quaternion of length 1 is needed", q[0], q[1], q[2], q[3]));
-}
-
-void check(const char *call, size_t index, const Pose &pose)
-{
-  check_vector(call, index, "position", pose.position);
-  check_rotation(call, index, pose.orientation);
-}
-void check(const char *call, size_t index, const Velocity &velocity)
-{
-  check_vector(call, index, "linear velocity", velocity.linear);
-  check_vector(call, index, "angular velocity", velocity.angular);
-}
-void check(const char *call, size_t index, const BodyState &state)
-{
-  check(call, index, Pose{state.position, state.orientation});
-  check(call, index, Velocity{state.linear_velocity, state.angular_velocity});
-}
-void check_point(const char *call, size_t index, const std::optional<Point> &point)
-{
-  if (point) check_vector(call, index, "point", *point);
-}
-void check(const char *call, size_t index, const Impulse &impulse)
-{
-  check_vector(call, index, "impulse", impulse.impulse);
-  check_vector(call, index, "angular impulse", impulse.angular_impulse);
-  check_point(call, index, impulse.point);
-}
-void check(const char *call, size_t index, const Force &force)
-{
-  check_vector(call, index, "force", force.force);
-  check_vector(call, index, "torque", force.torque);
-  check_point(call, index, force.point);
-}
-
-template <class Entry> void check_entries(const char *call, size_t ids, std::span<const Entry> entries)
-{
-  if (ids != entries.size())
-    throw InputError(
-        fmt::format("{}: {} handles and {} entries; one entry for each handle is needed", call, ids, entries.size()));
-  for (size_t i = 0; i < entries.size(); ++i) check(call, i, entries[i]);
 }
 
 /* A vector at a point, or at the centre, and another one that turns. */
@@ -176,11 +115,16 @@ std::vector<BodyState> World::Implementation::read(std::span<const BodyId> ids)
   return states;
 }
 
-void World::Implementation::check_states(const char *call, std::span<const BodyId> ids,
-                                         std::span<const BodyState> states) const
+World::Implementation::CallMark World::Implementation::mark_calls() const
 {
-  slots_of(call, ids);
-  check_entries(call, ids.size(), states);
+  return {commands.size(), force_commands.size(), moving_kinematics};
+}
+
+void World::Implementation::take_calls_back(CallMark &mark) noexcept
+{
+  commands.drop_after(mark.commands);
+  force_commands.drop_after(mark.force_commands);
+  moving_kinematics.swap(mark.moving_kinematics);
 }
 
 void World::Implementation::set_states(std::span<const BodyId> ids, std::span<const BodyState> states)

@@ -21,7 +21,13 @@ public:
   using Rows = std::array<float4, 3>; /* shared/commands/command_codes.h */
 
   bool empty() const { return commands_.empty(); }
+  size_t size() const { return commands_.size(); }
   void clear() noexcept { commands_.clear(); }
+  /* All but the first so many. */
+  void drop_after(size_t first) noexcept
+  {
+    while (commands_.size() > first) commands_.pop_back();
+  }
   /* Ensures that so many more can be added without failing. */
   void prepare(size_t more);
   /* slot: the body's index for users, because bodies may move in the buffers before the list is applied. kind:

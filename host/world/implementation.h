@@ -130,11 +130,20 @@ struct World::Implementation {
     size_t quarantined;
   };
   void step(const StepLimits &limits);
+  /* The two halves of a step, so that the groups of a batch step together or not at all. What attempt_step() has done,
+   * abandon_step() undoes; if it throws, it has. */
+  void attempt_step(const StepLimits &limits);
+  void abandon_step() noexcept;
+  void complete_step();
   void sleep_on();
   void end_step();
   void check_lost() const;
   void run_until_whole(const StepLimits &limits);
   void check_limits(const StepLimits &limits) const;
+  uint32_t sequential_contacts() const
+  {
+    return plan.known[COUNT_CONSTRAINTS] - plan.known[COLOR_START + COLOR_OVERFLOW];
+  }
   void turn() noexcept;
   void turn_back() noexcept;
   void undo(const Attempt &before) noexcept;
@@ -147,7 +156,7 @@ struct World::Implementation {
   void plan_colors() noexcept;
   bool may_skip_contacts() const noexcept;
   void plan_more_colors(uint32_t status);
-  void accept();
+  void accept() noexcept;
   void prepare_repetition(uint32_t status, bool &may_forget);
   bool candidates_overflow() const;
   uint32_t pairs_needed() const;
@@ -167,6 +176,7 @@ struct World::Implementation {
 
   /* --- a batch of worlds (host/world/worlds.h): batch.cpp --------------------------------------------------------- */
   bool is_batch() const { return special.worlds > 0; }
+  uint32_t world_in_message(uint32_t body) const { return first_world + body / bodies_of_world(); }
   uint32_t bodies_of_world() const { return bodies() / special.worlds; }
   void note_batch(Recorder &recorder) const;
   void quarantine_in_worlds(uint32_t status);
@@ -218,7 +228,13 @@ struct World::Implementation {
   std::vector<uint32_t> slots_of(const char *call, std::span<const BodyId> ids) const;
   void wake_called();
   std::vector<BodyState> read(std::span<const BodyId> ids);
-  void check_states(const char *call, std::span<const BodyId> ids, std::span<const BodyState> states) const;
+  /* What calls to bodies add to, so that those which no step has applied yet can be taken back in a batch. */
+  struct CallMark {
+    size_t commands, force_commands;
+    std::set<uint32_t> moving_kinematics;
+  };
+  CallMark mark_calls() const;
+  void take_calls_back(CallMark &mark) noexcept;
   void set_states(std::span<const BodyId> ids, std::span<const BodyState> states);
   void set_velocities(std::span<const BodyId> ids, std::span<const Velocity> velocities);
   void move_to(std::span<const BodyId> ids, std::span<const Pose> poses);
@@ -417,6 +433,8 @@ struct World::Implementation {
                                               structure belongs to */
   std::vector<uint32_t> queried_bodies;    /* as tell_queried_bodies keeps them */
   bool launches_ended = true;
+  std::optional<Attempt> attempt; /* what was before the step that has been attempted, and neither completed nor
+                                     abandoned; none if nothing moves */
   bool turned = false; /* the commit of an unfinished step has begun */
   bool idle = false;   /* the last step had nothing to do, so it has no events and no contacts */
   std::string lost;    /* why the world cannot go on; else empty */
@@ -447,6 +465,7 @@ struct World::Implementation {
   /* The substeps that the parameters on the device have, and those of the cache that they know. */
   std::pair<uint32_t, uint32_t> told_substeps;
   std::optional<uint64_t> first_outgrown; /* the first step that found more pairs than there was room for */
+  uint32_t first_world = 0;               /* of a group: its number in the batch */
   uint32_t cached_pairs = 0;              /* in the contact cache, as cached_start says */
   uint32_t awake_at_last = 0;             /* bodies, in the last step */
   StateRing ring;

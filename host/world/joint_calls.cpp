@@ -24,6 +24,7 @@
 #include "host/scene/built.h"
 #include "host/scene/joint_buffers.h"
 #include "host/scene/joint_rows.h"
+#include "host/world/call_checks.h"
 #include "host/world/implementation.h"
 #include "host/world/placed_joints.h"
 #include "shared/counts.h"
@@ -376,10 +377,7 @@ void World::Implementation::set_joint_axes(std::span<const JointId> ids, std::sp
   std::vector<Joint> joints;
   std::map<uint32_t, size_t> of_slot;
   for (size_t i = 0; i < changes.size(); ++i) {
-    if (changes[i].axis >= 6)
-      throw InputError(fmt::format("set_joint_axes: entry {}: axis {} does not exist; 0 to 2 are directions, 3 to 5 "
-                                   "rotations",
-                                   i, changes[i].axis));
+    if (changes[i].axis >= 6) refuse_axis("set_joint_axes", i, changes[i].axis);
     const auto [at, is_new] = of_slot.try_emplace(changed[i], joints.size());
     if (is_new) joints.push_back(scene.joints[changed[i]]);
     axis_of(joints[at->second], changes[i].axis) = changes[i].to;

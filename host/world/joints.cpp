@@ -67,7 +67,7 @@ void World::Implementation::refuse_joined(const char *call, const char *why, std
 /* The call, and of a batch the world of the body. */
 std::string World::Implementation::call_in_message(const char *call, uint32_t body) const
 {
-  return is_batch() ? fmt::format("{}: world {}", call, body / bodies_of_world()) : call;
+  return is_batch() ? fmt::format("{}: world {}", call, world_in_message(body)) : call;
 }
 
 /* The number of a joint, of a batch that in its world. */

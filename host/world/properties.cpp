@@ -57,8 +57,13 @@ struct ChangedBodies {
   std::vector<Body> bodies;
 };
 
-/* of_world: the bodies of each world of a batch, whose messages name the world; 0: it is none. */
-void check_changed(const Scene &scene, const Settings &settings, const Body &body, uint32_t slot, uint32_t of_world)
+/* The worlds of a batch, which messages name: their bodies, 0 if it is none, and the number of the first one. */
+struct WorldsOfMessage {
+  uint32_t bodies, first;
+};
+
+void check_changed(const Scene &scene, const Settings &settings, const Body &body, uint32_t slot,
+                   const WorldsOfMessage &worlds)
 {
   const auto check = [&](uint32_t number, const std::string &where) {
     validate(scene, body, number, where);
@@ -67,20 +72,21 @@ void check_changed(const Scene &scene, const Settings &settings, const Body &bod
   try {
     check(slot, "set_properties");
   } catch (const InputError &) {
-    if (of_world > 0) check(slot % of_world, fmt::format("set_properties: world {}", slot / of_world));
+    if (worlds.bodies > 0)
+      check(slot % worlds.bodies, fmt::format("set_properties: world {}", worlds.first + slot / worlds.bodies));
     throw;
   }
 }
 
 /* Several entries for one body are taken in their order. */
 ChangedBodies changed_by(const Scene &scene, const Settings &settings, std::span<const uint32_t> slots,
-                         std::span<const BodyProperties> properties, uint32_t of_world)
+                         std::span<const BodyProperties> properties, const WorldsOfMessage &worlds)
 {
   std::map<uint32_t, Body> changed;
   for (size_t i = 0; i < slots.size(); ++i) {
     Body &body = changed.try_emplace(slots[i], scene.bodies[slots[i]]).first->second;
     change(body, properties[i]);
-    check_changed(scene, settings, body, slots[i], of_world);
+    check_changed(scene, settings, body, slots[i], worlds);
   }
   ChangedBodies result;
   for (auto &[slot, body] : changed) {
@@ -149,7 +155,8 @@ void World::Implementation::set_properties(std::span<const BodyId> ids, std::spa
   std::vector<uint32_t> given;
   for (const BodyId &id : ids) given.push_back(slots.slot_of("set_properties", id));
   settle_joints();
-  const ChangedBodies changed = changed_by(scene, settings, given, properties, is_batch() ? bodies_of_world() : 0);
+  const ChangedBodies changed =
+      changed_by(scene, settings, given, properties, {is_batch() ? bodies_of_world() : 0, first_world});
   if (is_batch()) refuse_joined("set_properties", "its type cannot change in a batch", retyped_by(scene, changed));
   const std::vector<uint32_t> retyped = joints_of_bodies(retyped_by(scene, changed));
   refuse_coupled("set_properties", "the type of its bodies cannot change", retyped);

@@ -28,9 +28,15 @@ constexpr uint32_t least_rounds = 4, most_rounds = 1 << 20;
 
 void World::Implementation::step(const StepLimits &limits)
 {
+  attempt_step(limits);
+  complete_step();
+}
+
+void World::Implementation::attempt_step(const StepLimits &limits)
+{
   check_lost();
   plan.hits = 0;
-  if (nothing_moves()) return sleep_on();
+  if (nothing_moves()) return;
   launcher.set_step(statistics.steps);
   if (automatic) place_as_chosen();
   if (pending_joints)
@@ -39,7 +45,7 @@ void World::Implementation::step(const StepLimits &limits)
       settle_joints();
     });
   ++state;
-  const Attempt before{plan, statistics, first_outgrown, quarantined.size()};
+  attempt.emplace(Attempt{plan, statistics, first_outgrown, quarantined.size()});
   try {
     if (backends.is_waiting()) place_again();
     if (automatic) automatic->begin_step(backends, static_cast<bool>(launcher.observer()));
@@ -48,11 +54,27 @@ void World::Implementation::step(const StepLimits &limits)
     buffers.make_ready(sizes());
     count_awake_bodies();
     run_until_whole(limits);
+    if (settings.check && !fault) fault = find_batch_fault(memory, plan.known, special.order, statistics.steps);
   } catch (...) {
-    if (automatic) automatic->abandon_step(backends);
-    undo(before);
+    abandon_step();
     tell_why_step_failed();
   }
+}
+
+void World::Implementation::abandon_step() noexcept
+{
+  if (!attempt) return;
+  if (automatic) automatic->abandon_step(backends);
+  undo(*attempt);
+  attempt.reset();
+}
+
+/* Without an attempt nothing moves. */
+void World::Implementation::complete_step()
+{
+  if (!attempt) return sleep_on();
+  accept();
+  attempt.reset();
   whole = true;
   idle = false;
   backends.note_step(statistics.steps);
@@ -112,8 +134,7 @@ void World::Implementation::check_limits(const StepLimits &limits) const
   check("", known[COUNT_PAIRS], limits.pairs, "pairs");
   check(goes_on ? "at least " : "", known[COUNT_ROUNDS] + (goes_on ? 1 : 0), limits.rounds, "rounds of colouring");
   if (goes_on) return;
-  check("", known[COUNT_CONSTRAINTS] - known[COLOR_START + COLOR_OVERFLOW], limits.sequential_contacts,
-        "contacts beyond the last colour");
+  check("", sequential_contacts(), limits.sequential_contacts, "contacts beyond the last colour");
 }
 
 void World::Implementation::run_until_whole(const StepLimits &limits)
@@ -126,7 +147,7 @@ void World::Implementation::run_until_whole(const StepLimits &limits)
     memory.download(Buffer::counts, plan.known.data(), sizeof plan.known);
     launches_ended = true;
     if (!(plan.known[COUNT_STATUS] & STATUS_DEADLOCK)) check_limits(limits);
-    if (plan.known[COUNT_STATUS] == 0) return accept();
+    if (plan.known[COUNT_STATUS] == 0) return;
     turn_back();
     prepare_repetition(plan.known[COUNT_STATUS], may_forget);
   }
@@ -284,10 +305,8 @@ void World::Implementation::plan_more_colors(uint32_t status)
   if (lacked_rounds) plan.rounds = std::clamp(2 * plan.rounds, least_rounds, most_rounds);
 }
 
-/* Nothing can fail once the state has been accepted. */
-void World::Implementation::accept()
+void World::Implementation::accept() noexcept
 {
-  if (settings.check && !fault) fault = find_batch_fault(memory, plan.known, special.order, statistics.steps);
   keep_unwritten();
   turned = false;
   taken_out.clear();

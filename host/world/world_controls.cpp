@@ -144,7 +144,8 @@ Worlds::Controls::Controls(const World::Implementation &engine, const SceneTable
   check_distinct(axes);
   for (uint32_t world = 0; world < tables.worlds(); ++world)
     for (size_t k = 0; k < axes.size(); ++k) {
-      const std::string where = fmt::format("choose_controls: entry {}: world {}: joint {}: ", k, world, axes[k].joint);
+      const std::string where =
+          fmt::format("choose_controls: entry {}: world {}: joint {}: ", k, engine.first_world + world, axes[k].joint);
       if (axes[k].joint >= tables.joints(world))
         throw InputError(fmt::format("{}it does not exist; the world has {} joints", where, tables.joints(world)));
       targets_.push_back(checked_target(engine, tables.first_joint(world) + axes[k].joint, axes[k], where));
@@ -200,7 +201,9 @@ void Worlds::Controls::find_targets_anew(World::Implementation &engine)
     const uint32_t joint = targets_[i].joint;
     const ControlledAxis &control = chosen_[i % count()];
     const bool broke = !engine.scene.joints[joint].enabled; /* its axis is set as that of any joint */
-    const auto where = [&] { return fmt::format("set_controls: control {} of world {}: ", i % count(), i / count()); };
+    const auto where = [&] {
+      return fmt::format("set_controls: control {} of world {}: ", i % count(), engine.first_world + i / count());
+    };
     targets.push_back(broke ? target_of(engine, joint, control) : checked_target(engine, joint, control, where()));
   }
   targets_ = std::move(targets);
@@ -227,7 +230,7 @@ void Worlds::Controls::find_numbers(const float *values, float *numbers) const
   else numbers_at(actuators_, values, numbers);
 }
 
-void Worlds::Controls::check(uint32_t world, const float *values, const float *numbers) const
+void Worlds::Controls::check(uint32_t world, uint32_t in_message, const float *values, const float *numbers) const
 {
   const Target *targets = &targets_[world * count()];
   bool are_held = true;
@@ -239,7 +242,7 @@ void Worlds::Controls::check(uint32_t world, const float *values, const float *n
     if (std::isfinite(numbers[k]) && (!is_force || can_hold(damping, numbers[k]))) continue;
     const bool is_mapped = !actuators_.empty() && std::isfinite(values[k]);
     throw InputError(fmt::format(
-        "set_controls: control {} of world {} is {:g}{}; {} is needed", k, world, values[k],
+        "set_controls: control {} of world {} is {:g}{}; {} is needed", k, in_message, values[k],
         is_mapped ? fmt::format(", of which its axis gets {:g}", numbers[k]) : "",
         is_force ? fmt::format("at most {:g}, of its damping {:g}, in size", fastest_damper * damping, damping)
                  : "a finite number"));
@@ -326,27 +329,32 @@ void Worlds::Controls::write(World::Implementation &engine, const Written &writt
                           length});
 }
 
-void Worlds::Controls::set(World::Implementation &engine, std::span<const uint32_t> worlds,
-                           std::span<const float> values)
+void Worlds::Controls::prepare(World::Implementation &engine, std::span<const uint32_t> worlds,
+                               std::span<const float> values)
 {
+  worlds_.assign(worlds.begin(), worlds.end());
   if (values.empty()) return;
   find_targets_anew(engine);
   numbers_.resize(values.size());
   for_each_world(worlds, [&](size_t i) {
     find_numbers(&values[i * count()], &numbers_[i * count()]);
-    check(worlds[i], &values[i * count()], &numbers_[i * count()]);
+    check(worlds[i], engine.first_world + worlds[i], &values[i * count()], &numbers_[i * count()]);
   });
   engine.settle();
   engine.buffers.make_ready(engine.sizes());
-  const bool is_of_all = worlds.size() * count() == targets_.size() && are_distinct(worlds);
-  const std::vector<Written> of_some = is_of_all ? std::vector<Written>{} : written_of(worlds);
-  const std::vector<Written> &all = is_of_all ? written_of_all() : of_some;
+  is_of_all_ = worlds.size() * count() == targets_.size() && are_distinct(worlds);
+  if (!is_of_all_) of_some_ = written_of(worlds);
   written_.resize(targets_.size());
-  for (const Written &written : all) make_room(engine.memory, written);
-  for_each_world(worlds, [&](size_t i) { keep(worlds[i], &numbers_[i * count()]); });
+  for (const Written &written : is_of_all_ ? written_of_all() : of_some_) make_room(engine.memory, written);
+}
+
+void Worlds::Controls::set(World::Implementation &engine)
+{
+  if (worlds_.empty() || count() == 0) return;
+  for_each_world(worlds_, [&](size_t i) { keep(worlds_[i], &numbers_[i * count()]); });
   ++engine.state;
   scene_is_behind_ = true;
-  for (const Written &written : all) write(engine, written);
+  for (const Written &written : is_of_all_ ? of_all_ : of_some_) write(engine, written);
 }
 
 void Worlds::Controls::write_scene(Scene &scene)

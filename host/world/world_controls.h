@@ -30,8 +30,10 @@ public:
   Controls(const World::Implementation &engine, const SceneTables &tables, std::span<const Actuator> actuators);
 
   size_t count() const { return chosen_.size(); } /* of each world */
-  /* values: of each of these worlds in turn. If it throws, nothing has changed. */
-  void set(World::Implementation &engine, std::span<const uint32_t> worlds, std::span<const float> values);
+  /* Checks what set() sets, and makes room for it; if it throws, nothing has changed. values: of each of these worlds
+   * in turn. */
+  void prepare(World::Implementation &engine, std::span<const uint32_t> worlds, std::span<const float> values);
+  void set(World::Implementation &engine);
   /* The scene has what was set only after this, because a joint of it is far from the next one in memory. */
   void write_scene(Scene &scene);
 
@@ -53,7 +55,7 @@ private:
   };
   /* values: of the controls of that world; numbers: those of its axes for which they stand. */
   void find_numbers(const float *values, float *numbers) const;
-  void check(uint32_t world, const float *values, const float *numbers) const;
+  void check(uint32_t world, uint32_t in_message, const float *values, const float *numbers) const;
   void keep(uint32_t world, const float *numbers);
   bool writes(size_t control) const;
   float number_written(size_t target) const;
@@ -70,11 +72,14 @@ private:
   std::vector<size_t> partner_;     /* of each control: the other one of the speed to which the damper pulls, or none */
   std::vector<Actuator> actuators_; /* of each control; none if axes were chosen */
   std::vector<Target> targets_;     /* [world, control] */
-  std::vector<float> numbers_;      /* of the call that goes on; kept for the next one */
-  std::vector<float> written_;      /* of each target: what its row has */
-  std::vector<Written> of_all_;     /* made when it is first asked for */
-  bool has_places_of_all_ = false;  /* whether control_place has those of the only list of of_all_ */
-  uint64_t joints_number_ = 0;      /* World::Implementation::joints_number when the targets were found */
+  std::vector<uint32_t> worlds_;    /* of the call that goes on, as the next two; kept for the next one */
+  std::vector<float> numbers_;
+  std::vector<Written> of_some_; /* unless it is of all */
+  bool is_of_all_ = false;
+  std::vector<float> written_;     /* of each target: what its row has */
+  std::vector<Written> of_all_;    /* made when it is first asked for */
+  bool has_places_of_all_ = false; /* whether control_place has those of the only list of of_all_ */
+  uint64_t joints_number_ = 0;     /* World::Implementation::joints_number when the targets were found */
   bool scene_is_behind_ = false;
 };
 

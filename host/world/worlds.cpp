@@ -1,147 +1,17 @@
-/* worlds.cpp - the functions of <tandem/worlds.h>: calls and answers in the numbers of worlds and their bodies. */
+/* worlds.cpp - the functions of <tandem/worlds.h>: what they are given goes to groups, and answers come from them. */
 #include "host/world/worlds.h"
 
 #include <algorithm>
 #include <numeric>
-#include <set>
 
 #include <fmt/format.h>
 
+#include "host/base/finite_vector.h"
 #include "host/base/out_of_memory.h"
 #include "host/runtime/interface/floating_point.h"
-#include "host/scene/built.h"
-#include "host/scene/joint_buffers.h"
+#include "host/world/call_checks.h"
 
 namespace tandem {
-namespace {
-
-Settings settings_of_batch(Settings settings)
-{
-  settings.broadphase = Broadphase::brute_force; /* within each world */
-  return settings;
-}
-
-void check_scenes(std::span<const Scene> scenes, uint32_t copies)
-{
-  if (scenes.empty() || copies == 0) throw InputError("worlds: 0 worlds; at least 1 is needed");
-  for (size_t k = 0; k < scenes.size(); ++k) {
-    validate(scenes[k], scenes[k].name);
-    if (scenes[k].bodies.size() != scenes.front().bodies.size())
-      throw InputError(
-          fmt::format("worlds: scene {} ('{}') has {} bodies and scene 0 has {}; the worlds of a batch have "
-                      "equally many",
-                      k, scenes[k].name, scenes[k].bodies.size(), scenes.front().bodies.size()));
-  }
-  const uint64_t worlds = uint64_t{copies} * scenes.size(), bodies = worlds * scenes.front().bodies.size();
-  if (bodies >= body_numbers)
-    throw InputError(fmt::format("worlds: {} worlds of {} bodies are {} bodies; kernels can number {}", worlds,
-                                 scenes.front().bodies.size(), bodies, body_numbers - 1));
-}
-
-} // namespace
-
-void check_batch_settings(const Settings &settings)
-{
-  const auto refuse = [](const char *what, const char *instead) {
-    throw InputError(fmt::format("worlds: {}: a batch of worlds has {}", what, instead));
-  };
-  if (settings.substeps == automatic_substeps) refuse("substeps auto", "a number of substeps, the same for all");
-  if (settings.sleeping) refuse("sleeping", "no bodies that sleep");
-  if (settings.solver != Solver::soft_step) refuse(name_of(settings.solver), "the solver soft-step alone");
-  if (settings.batching != Batching::coloring) refuse(name_of(settings.batching), "the batching coloring alone");
-  if (settings.broadphase != Broadphase::automatic)
-    refuse(name_of(settings.broadphase), "the broadphase auto alone, which looks within each world");
-  if (settings.check) refuse("check", "no check of batches; a world alone has it");
-  if (!settings.extensions.empty()) refuse("extensions", "no modules");
-}
-
-Worlds::Implementation::Implementation(std::span<const Scene> scenes, uint32_t copies, const Settings &given,
-                                       const Placement &placement)
-    : settings(given)
-{
-  const minicl::ExactFloatingPoint environment;
-  validate(settings);
-  check_batch_settings(settings);
-  check_scenes(scenes, copies);
-  bodies = static_cast<uint32_t>(scenes.front().bodies.size());
-  Scene all;
-  all.name = scenes.front().name;
-  all.materials.clear();
-  for (const Scene &scene : scenes) {
-    const Features own = features_of(scene, settings);
-    check_built(own, scene, settings, scene.name);
-    for (uint32_t copy = 0; copy < copies; ++copy) {
-      tables.add(scene, all);
-      gravity.push_back(scene.gravity);
-      features.push_back(own);
-    }
-  }
-  started.resize(tables.worlds());
-  entered.resize(tables.worlds());
-  changed.resize(tables.worlds());
-  forced.resize(tables.worlds());
-  if (all.materials.size() > MOST_MATERIALS)
-    throw InputError(fmt::format("worlds: the scenes have {} materials; at most {} in all, and scenes that follow one "
-                                 "another and have the same count once",
-                                 all.materials.size(), MOST_MATERIALS));
-  const Settings used = settings_of_batch(settings);
-  Specialisation special = specialise_worlds(all, tables.worlds(), used);
-  const auto count = static_cast<uint32_t>(all.bodies.size());
-  const uint32_t pairs = first_capacity(all, used);
-  world.reset(new World(std::make_unique<World::Implementation>(
-      World::Implementation::Beginning{std::move(all), used, std::move(special), BodySlots(count), count, pairs, false},
-      placement)));
-  joints = WorldJoints(engine().scene, engine().joint_graph, engine().coupling_graph, tables.worlds());
-  for (const Joint &joint : engine().scene.joints) enabled_at_start.push_back(joint.enabled);
-  upload_batch();
-}
-
-void Worlds::Implementation::check_world(const char *call, uint32_t number) const
-{
-  if (number >= tables.worlds())
-    throw InputError(fmt::format("{}: world {} does not exist; there are {}", call, number, tables.worlds()));
-}
-
-/* Bodies of a batch are never destroyed, so all have their first handles. */
-std::vector<BodyId> Worlds::Implementation::ids_of(const char *call, std::span<const WorldBody> given) const
-{
-  std::vector<BodyId> ids;
-  ids.reserve(given.size());
-  for (const auto &[number, body] : given) {
-    check_world(call, number);
-    if (body >= bodies)
-      throw InputError(
-          fmt::format("{}: entry {}: body {} does not exist; worlds have {} bodies", call, ids.size(), body, bodies));
-    ids.push_back({number * bodies + body, 1});
-  }
-  return ids;
-}
-
-/* The same of joints. */
-std::vector<JointId> Worlds::Implementation::ids_of(const char *call, std::span<const WorldJoint> given) const
-{
-  std::vector<JointId> ids;
-  ids.reserve(given.size());
-  for (const auto &[number, joint] : given) {
-    check_world(call, number);
-    if (joint >= tables.joints(number))
-      throw InputError(fmt::format("{}: entry {}: joint {} does not exist; world {} has {} joints", call, ids.size(),
-                                   joint, number, tables.joints(number)));
-    ids.push_back({tables.first_joint(number) + joint, 1});
-  }
-  return ids;
-}
-
-WorldPlace Worlds::Implementation::place_of(uint32_t number)
-{
-  return {number * bodies, bodies, steps(number) == 0, present_joints().of(number)};
-}
-
-Scene Worlds::Implementation::scene(uint32_t number)
-{
-  write_controls();
-  return tables.scene_of(number, engine().scene, bodies, gravity[number]);
-}
 
 Worlds::Worlds(const Scene &scene, uint32_t worlds, const Settings &settings, const Placement &placement)
     : implementation_(naming_what_failed(
@@ -157,32 +27,29 @@ Worlds::Worlds(std::span<const Scene> scenes, const Settings &settings, const Pl
 
 Worlds::~Worlds() = default;
 
-uint32_t Worlds::count() const { return implementation_->tables.worlds(); }
+uint32_t Worlds::count() const { return implementation_->worlds; }
 uint32_t Worlds::bodies_of_world() const { return implementation_->bodies; }
 const Settings &Worlds::settings() const { return implementation_->settings; }
 
 Scene Worlds::scene(uint32_t world) const
 {
-  implementation_->check_world("scene", world);
-  return implementation_->scene(world);
+  Implementation &own = *implementation_;
+  own.check_world("scene", world);
+  return own.group_of(world).scene(own.number_in_group(world));
 }
 
-/* A step in which joints break writes all joints as the scene has them. */
-void Worlds::step(const StepLimits &limits)
-{
-  if (implementation_->engine().scene_features & FEATURE_JOINT_BREAKS) implementation_->write_controls();
-  implementation_->world->step(limits);
-}
+void Worlds::step(const StepLimits &limits) { implementation_->step(limits); }
 
 uint64_t Worlds::steps(uint32_t world) const
 {
-  implementation_->check_world("steps", world);
-  return implementation_->steps(world);
+  Implementation &own = *implementation_;
+  own.check_world("steps", world);
+  return own.group_of(world).steps(own.number_in_group(world));
 }
 
 void Worlds::reset(std::span<const uint32_t> worlds)
 {
-  for (const uint32_t world : worlds) implementation_->check_world("reset", world);
+  implementation_->check("reset", worlds);
   implementation_->reset(worlds);
 }
 
@@ -192,21 +59,45 @@ void Worlds::reset(std::span<const uint32_t> worlds, std::span<const BodyState> 
   if (states.size() != worlds.size() * bodies)
     throw InputError(fmt::format("reset: {} states of {} worlds of {} bodies; one of each body is needed",
                                  states.size(), worlds.size(), bodies));
+  implementation_->check("reset", worlds);
+  check_entries("reset", states.size(), states);
   std::vector<WorldBody> put;
   for (const uint32_t world : worlds)
     for (uint32_t body = 0; body < bodies; ++body) put.push_back({world, body});
-  implementation_->engine().check_states("reset", implementation_->ids_of("reset", put), states);
   reset(worlds);
   set_states(put, states);
 }
 
-std::vector<BodyState> Worlds::bodies() { return implementation_->world->bodies(); }
+void Worlds::set_gravity(std::span<const uint32_t> worlds, std::span<const Vec3> gravity)
+{
+  if (worlds.size() != gravity.size())
+    throw InputError(fmt::format("set_gravity: {} worlds and {} entries; one entry for each world is needed",
+                                 worlds.size(), gravity.size()));
+  for (size_t i = 0; i < worlds.size(); ++i) {
+    implementation_->check_world("set_gravity", worlds[i]);
+    if (!is_finite_vector(gravity[i]))
+      throw InputError(fmt::format("set_gravity: entry {}: gravity is {}; three finite numbers are needed", i,
+                                   vector_text(gravity[i])));
+  }
+  implementation_->call(worlds, gravity, [](Group &group, std::span<const uint32_t> of, std::span<const Vec3> values) {
+    group.set_gravity(of, values);
+  });
+}
+
+/* --- bodies ------------------------------------------------------------------------------------------------------ */
+std::vector<BodyState> Worlds::bodies()
+{
+  return implementation_->gathered<BodyState>([](Group &group) { return group.world->bodies(); });
+}
 
 std::vector<BodyState> Worlds::bodies(uint32_t world)
 {
+  Implementation &own = *implementation_;
+  own.check_world("bodies", world);
   std::vector<WorldBody> all;
-  for (uint32_t body = 0; body < bodies_of_world(); ++body) all.push_back({world, body});
-  return implementation_->world->read_bodies(implementation_->ids_of("bodies", all));
+  for (uint32_t body = 0; body < own.bodies; ++body) all.push_back({own.number_in_group(world), body});
+  Group &group = own.group_of(world);
+  return group.world->read_bodies(group.ids_of(all));
 }
 
 const std::vector<WorldBody> &Worlds::every_body() const
@@ -220,52 +111,104 @@ const std::vector<WorldBody> &Worlds::every_body() const
 
 void Worlds::set_states(std::span<const WorldBody> bodies, std::span<const BodyState> states)
 {
-  implementation_->world->set_states(implementation_->ids_of("set_states", bodies), states);
+  implementation_->check("set_states", bodies);
+  check_entries("set_states", bodies.size(), states);
+  implementation_->call(bodies, states, [](Group &group, std::span<const WorldBody> of, std::span<const BodyState> to) {
+    group.world->set_states(group.ids_of(of), to);
+  });
 }
 
 void Worlds::set_velocities(std::span<const WorldBody> bodies, std::span<const Velocity> velocities)
 {
-  implementation_->world->set_velocities(implementation_->ids_of("set_velocities", bodies), velocities);
+  implementation_->check("set_velocities", bodies);
+  check_entries("set_velocities", bodies.size(), velocities);
+  implementation_->call(bodies, velocities,
+                        [](Group &group, std::span<const WorldBody> of, std::span<const Velocity> to) {
+                          group.world->set_velocities(group.ids_of(of), to);
+                        });
 }
 
 void Worlds::move_to(std::span<const WorldBody> bodies, std::span<const Pose> poses)
 {
-  implementation_->world->move_to(implementation_->ids_of("move_to", bodies), poses);
+  implementation_->check("move_to", bodies);
+  check_entries("move_to", bodies.size(), poses);
+  for (size_t i = 0; i < bodies.size(); ++i)
+    if (!implementation_->is_kinematic(bodies[i]))
+      refuse_entry("move_to", i,
+                   fmt::format("body {} of world {} is not kinematic; set_states puts other bodies elsewhere",
+                               bodies[i].body, bodies[i].world));
+  implementation_->call(bodies, poses, [](Group &group, std::span<const WorldBody> of, std::span<const Pose> to) {
+    group.world->move_to(group.ids_of(of), to);
+  });
 }
 
 void Worlds::add_impulses(std::span<const WorldBody> bodies, std::span<const Impulse> impulses)
 {
-  const std::vector<BodyId> ids = implementation_->ids_of("add_impulses", bodies);
-  implementation_->world->add_impulses(ids, impulses);
-  for (size_t k = 0; k < ids.size(); ++k) /* on a link it acts as a force */
-    if (implementation_->engine().links.has_body(ids[k].index)) implementation_->forced[bodies[k].world] = true;
+  implementation_->check("add_impulses", bodies);
+  check_entries("add_impulses", bodies.size(), impulses);
+  implementation_->call(bodies, impulses,
+                        [](Group &group, std::span<const WorldBody> of, std::span<const Impulse> given) {
+                          group.add_impulses(of, given);
+                        });
 }
 
 void Worlds::add_forces(std::span<const WorldBody> bodies, std::span<const Force> forces)
 {
-  implementation_->world->add_forces(implementation_->ids_of("add_forces", bodies), forces);
-  for (const WorldBody &body : bodies) implementation_->forced[body.world] = true;
+  implementation_->check("add_forces", bodies);
+  check_entries("add_forces", bodies.size(), forces);
+  implementation_->call(bodies, forces, [](Group &group, std::span<const WorldBody> of, std::span<const Force> given) {
+    group.add_forces(of, given);
+  });
 }
 
+void Worlds::set_properties(std::span<const WorldBody> bodies, std::span<const BodyProperties> properties)
+{
+  Implementation &own = *implementation_;
+  own.check("set_properties", bodies);
+  if (bodies.size() != properties.size())
+    throw InputError(fmt::format("set_properties: {} handles and {} entries; one entry for each handle is needed",
+                                 bodies.size(), properties.size()));
+  for (size_t i = 0; i < bodies.size(); ++i) own.check_properties(i, bodies[i], properties[i]);
+  own.replace(
+      bodies, properties,
+      [](Group &group, std::span<const WorldBody> of, std::span<const BodyProperties> given) {
+        (void)given;
+        return group.properties_of(of);
+      },
+      [](Group &group, std::span<const WorldBody> of, std::span<const BodyProperties> given) {
+        group.set_properties(of, given);
+      });
+  for (const Implementation::Share<WorldBody> &share : own.shares_of(bodies)) share.group->note_properties(share.items);
+}
+
+void Worlds::set_state_unchecked(const WorldBody &body, const BodyState &state)
+{
+  Implementation &own = *implementation_;
+  own.check("set_state_unchecked", std::span(&body, 1));
+  own.group_of(body.world).world->set_body_unchecked(own.number_in_group(body.world) * own.bodies + body.body, state);
+}
+
+/* --- joints ------------------------------------------------------------------------------------------------------ */
 void Worlds::set_joint_axes(std::span<const WorldJoint> joints, std::span<const JointAxisChange> changes)
 {
-  implementation_->write_controls();
-  implementation_->world->set_joint_axes(implementation_->ids_of("set_joint_axes", joints), changes);
+  implementation_->check("set_joint_axes", joints);
+  if (joints.size() != changes.size())
+    throw InputError(fmt::format("set_joint_axes: {} handles and {} changes; one change for each handle is needed",
+                                 joints.size(), changes.size()));
+  for (size_t i = 0; i < changes.size(); ++i)
+    if (changes[i].axis >= 6) refuse_axis("set_joint_axes", i, changes[i].axis);
+  implementation_->replace(
+      joints, changes,
+      [](Group &group, std::span<const WorldJoint> of, std::span<const JointAxisChange> to) {
+        return group.axes_of(of, to);
+      },
+      [](Group &group, std::span<const WorldJoint> of, std::span<const JointAxisChange> to) {
+        group.set_joint_axes(of, to);
+      });
 }
 
-void Worlds::choose_controls(std::span<const ControlledAxis> axes)
-{
-  const minicl::ExactFloatingPoint environment;
-  implementation_->write_controls();
-  implementation_->controls = Controls(implementation_->engine(), implementation_->tables, axes);
-}
-
-void Worlds::choose_controls(std::span<const Actuator> actuators)
-{
-  const minicl::ExactFloatingPoint environment;
-  implementation_->write_controls();
-  implementation_->controls = Controls(implementation_->engine(), implementation_->tables, actuators);
-}
+void Worlds::choose_controls(std::span<const ControlledAxis> axes) { implementation_->choose_controls(axes); }
+void Worlds::choose_controls(std::span<const Actuator> actuators) { implementation_->choose_controls(actuators); }
 
 void Worlds::set_controls(std::span<const float> values)
 {
@@ -276,117 +219,216 @@ void Worlds::set_controls(std::span<const float> values)
 
 void Worlds::set_controls(std::span<const uint32_t> worlds, std::span<const float> values)
 {
-  const minicl::ExactFloatingPoint environment;
-  for (const uint32_t world : worlds) implementation_->check_world("set_controls", world);
-  const size_t controls = implementation_->controls.count();
+  implementation_->check("set_controls", worlds);
+  const size_t controls = implementation_->groups.front()->controls.count();
   if (values.size() != worlds.size() * controls)
     throw InputError(fmt::format("set_controls: {} values for {} worlds of {} controls; one for each is needed",
                                  values.size(), worlds.size(), controls));
-  implementation_->controls.set(implementation_->engine(), worlds, values);
+  implementation_->set_controls(worlds, values);
 }
 
 std::vector<JointReading> Worlds::read_joints(std::span<const WorldJoint> joints)
 {
-  return implementation_->world->read_joints(implementation_->ids_of("read_joints", joints));
-}
-
-void Worlds::set_properties(std::span<const WorldBody> bodies, std::span<const BodyProperties> properties)
-{
-  Implementation &own = *implementation_;
-  const std::vector<BodyId> ids = own.ids_of("set_properties", bodies);
-  std::vector<BodyProperties> in_all(properties.begin(), properties.end());
-  for (size_t i = 0; i < std::min(ids.size(), in_all.size()); ++i) {
-    if (in_all[i].continuous)
-      throw InputError(
-          fmt::format("set_properties: entry {}: continuous: bodies of a batch keep what their scene says, "
-                      "because their order follows from it",
-                      i));
-    if (!in_all[i].material) continue;
-    const uint32_t world = bodies[i].world;
-    if (*in_all[i].material >= own.tables.materials(world))
-      throw InputError(fmt::format("set_properties: entry {}: material {} does not exist; the scene of world {} has {}",
-                                   i, *in_all[i].material, world, own.tables.materials(world)));
-    *in_all[i].material += own.tables.first_material(world);
+  implementation_->check("read_joints", joints);
+  std::vector<JointReading> readings(joints.size());
+  for (const Implementation::Share<WorldJoint> &share : implementation_->shares_of(joints)) {
+    const std::vector<JointReading> own = share.group->world->read_joints(share.group->ids_of(share.items));
+    for (size_t k = 0; k < own.size(); ++k) readings[share.places[k]] = own[k];
   }
-  own.world->set_properties(ids, in_all);
-  own.upload_starts(ids);
-  std::set<uint32_t> worlds;
-  for (const WorldBody &body : bodies) worlds.insert(body.world);
-  for (const uint32_t world : worlds) {
-    own.features[world] |= features_of(own.scene(world), own.settings);
-    own.changed[world] = true;
-  }
+  return readings;
 }
 
-void Worlds::set_state_unchecked(const WorldBody &body, const BodyState &state)
-{
-  implementation_->world->set_body_unchecked(
-      implementation_->ids_of("set_state_unchecked", std::span(&body, 1)).front().index, state);
-}
-
+/* --- events and figures ------------------------------------------------------------------------------------------ */
 namespace {
 
-/* The bodies that decide the world of an event, and are numbered within it. */
-template <class Event> uint32_t &first_body_of(Event &event) { return event.a; }
-uint32_t &first_body_of(uint32_t &body) { return body; }
-template <class Event> void number_from(uint32_t first, Event &event)
+/* Those of the next group behind those so far. */
+template <class Event> void append(WorldEvents<Event> &all, WorldEvents<Event> next)
 {
-  event.a -= first;
-  event.b -= first;
+  const size_t before = all.all.size();
+  if (all.first.empty()) all.first.push_back(0);
+  for (size_t k = 1; k < next.first.size(); ++k) all.first.push_back(before + next.first[k]);
+  all.all.insert(all.all.end(), std::make_move_iterator(next.all.begin()), std::make_move_iterator(next.all.end()));
 }
-void number_from(uint32_t first, uint32_t &body) { body -= first; }
 
 } // namespace
 
-/* Events are sorted by body, so those of a world follow one another. */
-template <class Event> WorldEvents<Event> Worlds::Implementation::by_world(std::vector<Event> events) const
-{
-  WorldEvents<Event> result;
-  result.first.push_back(0);
-  size_t at = 0;
-  for (uint32_t number = 0; number < tables.worlds(); ++number) {
-    const uint32_t end = (number + 1) * bodies;
-    for (; at < events.size() && first_body_of(events[at]) < end; ++at) {
-      if (engine().statistics.steps == entered[number]) continue;
-      result.all.push_back(std::move(events[at]));
-      number_from(number * bodies, result.all.back());
-    }
-    result.first.push_back(result.all.size());
-  }
-  return result;
-}
-
 WorldEvents<ContactEvent> Worlds::contact_events()
 {
-  return implementation_->by_world(implementation_->world->contact_events());
+  WorldEvents<ContactEvent> all;
+  for (const auto &group : implementation_->groups) append(all, group->contact_events());
+  return all;
 }
-WorldEvents<HitEvent> Worlds::hit_events() { return implementation_->by_world(implementation_->world->hit_events()); }
+WorldEvents<HitEvent> Worlds::hit_events()
+{
+  WorldEvents<HitEvent> all;
+  for (const auto &group : implementation_->groups) append(all, group->hit_events());
+  return all;
+}
 WorldEvents<PairEvent> Worlds::pair_events()
 {
-  return implementation_->by_world(implementation_->world->pair_events());
+  WorldEvents<PairEvent> all;
+  for (const auto &group : implementation_->groups) append(all, group->pair_events());
+  return all;
 }
 WorldEvents<uint32_t> Worlds::moved_bodies()
 {
-  return implementation_->by_world(implementation_->world->moved_bodies());
+  WorldEvents<uint32_t> all;
+  for (const auto &group : implementation_->groups) append(all, group->moved_bodies());
+  return all;
+}
+WorldEvents<JointBreak> Worlds::joint_breaks() const
+{
+  WorldEvents<JointBreak> all;
+  for (const auto &group : implementation_->groups) append(all, group->joint_breaks());
+  return all;
 }
 
 std::vector<Quarantine> Worlds::quarantined(uint32_t world) const
 {
-  implementation_->check_world("quarantined", world);
-  return implementation_->quarantined(world);
+  Implementation &own = *implementation_;
+  own.check_world("quarantined", world);
+  return own.group_of(world).quarantined(own.number_in_group(world));
 }
 
-Statistics Worlds::statistics() { return implementation_->world->statistics(); }
-PlacementReport Worlds::placement_report() const { return implementation_->world->placement_report(); }
-bool Worlds::is_placed() const { return implementation_->world->is_placed(); }
-bool Worlds::wait_until_placed(double seconds) { return implementation_->world->wait_until_placed(seconds); }
-void Worlds::finish() { implementation_->world->finish(); }
-void Worlds::prepare_kernels() { implementation_->world->prepare_kernels(); }
-void Worlds::set_profiling(bool on) { implementation_->world->set_profiling(on); }
-std::vector<KernelTime> Worlds::take_kernel_times() { return implementation_->world->take_kernel_times(); }
-uint64_t Worlds::launches() const { return implementation_->world->launches(); }
-uint64_t Worlds::bytes_moved() const { return implementation_->world->bytes_moved(); }
-uint64_t Worlds::device_reads() const { return implementation_->world->device_reads(); }
-double Worlds::build_milliseconds() const { return implementation_->world->build_milliseconds(); }
+uint64_t Worlds::body_hash(uint32_t world)
+{
+  Implementation &own = *implementation_;
+  own.check_world("body_hash", world);
+  return own.group_of(world).body_hash(own.number_in_group(world));
+}
+
+std::vector<uint64_t> Worlds::body_hashes()
+{
+  return implementation_->gathered<uint64_t>([](Group &group) { return group.body_hashes(); });
+}
+
+uint64_t Worlds::state_hash(uint32_t world)
+{
+  Implementation &own = *implementation_;
+  own.check_world("state_hash", world);
+  return own.group_of(world).state_hash(own.number_in_group(world));
+}
+
+std::vector<uint64_t> Worlds::state_hashes()
+{
+  return implementation_->gathered<uint64_t>([](Group &group) { return group.state_hashes(); });
+}
+
+namespace {
+
+void add(const Statistics &next, Statistics &all)
+{
+  const double depth = all.mean_penetration * all.contacts + next.mean_penetration * next.contacts;
+  all.pairs += next.pairs;
+  all.contacts += next.contacts;
+  all.manifolds += next.manifolds;
+  all.colors = std::max(all.colors, next.colors);
+  all.max_penetration = std::max(all.max_penetration, next.max_penetration);
+  all.mean_penetration = all.contacts > 0 ? depth / all.contacts : 0;
+  all.kinetic_energy += next.kinetic_energy;
+  all.nonfinite += next.nonfinite;
+  all.overflow = std::max(all.overflow, next.overflow);
+}
+
+} // namespace
+
+Statistics Worlds::statistics()
+{
+  const std::vector<Statistics> each = implementation_->gathered<Statistics>(
+      [](Group &group) { return std::vector<Statistics>{group.world->statistics()}; });
+  Statistics all = each.front();
+  for (size_t k = 1; k < each.size(); ++k) add(each[k], all);
+  return all;
+}
+
+/* --- one world --------------------------------------------------------------------------------------------------- */
+std::unique_ptr<World> Worlds::alone(uint32_t world, const Placement &placement)
+{
+  Implementation &own = *implementation_;
+  own.check_world("alone", world);
+  return std::unique_ptr<World>(new World(own.group_of(world).alone(own.number_in_group(world), placement)));
+}
+
+std::vector<std::byte> Worlds::save(uint32_t world)
+{
+  implementation_->check_world("save", world);
+  return alone(world, {"serial", {}})->save();
+}
+
+void Worlds::load(uint32_t world, std::span<const std::byte> snapshot)
+{
+  Implementation &own = *implementation_;
+  own.check_world("load", world);
+  own.group_of(world).load(own.number_in_group(world), snapshot);
+}
+
+/* --- where it runs ----------------------------------------------------------------------------------------------- */
+PlacementReport Worlds::placement_report() const
+{
+  PlacementReport report = implementation_->groups.front()->world->placement_report();
+  if (implementation_->groups.size() > 1) report.on = implementation_->placement.on;
+  return report;
+}
+
+bool Worlds::is_placed() const
+{
+  return std::ranges::all_of(implementation_->groups, [](const auto &group) { return group->world->is_placed(); });
+}
+
+bool Worlds::wait_until_placed(double seconds)
+{
+  return std::ranges::all_of(implementation_->groups,
+                             [&](const auto &group) { return group->world->wait_until_placed(seconds); });
+}
+
+void Worlds::finish()
+{
+  for (const auto &group : implementation_->groups) group->world->finish();
+}
+
+void Worlds::prepare_kernels()
+{
+  for (const auto &group : implementation_->groups) group->world->prepare_kernels();
+}
+
+void Worlds::set_profiling(bool on)
+{
+  for (const auto &group : implementation_->groups) group->world->set_profiling(on);
+}
+
+std::vector<KernelTime> Worlds::take_kernel_times()
+{
+  std::vector<KernelTime> all = implementation_->groups.front()->world->take_kernel_times();
+  if (implementation_->groups.size() > 1)
+    for (KernelTime &time : all) time.backend = implementation_->placement.on;
+  for (size_t k = 1; k < implementation_->groups.size(); ++k)
+    for (const KernelTime &next : implementation_->groups[k]->world->take_kernel_times()) {
+      const auto same = std::ranges::find(all, next.kernel, &KernelTime::kernel);
+      if (same == all.end()) {
+        all.push_back({next.kernel, implementation_->placement.on, next.milliseconds, next.launches});
+        continue;
+      }
+      same->milliseconds += next.milliseconds;
+      same->launches += next.launches;
+    }
+  return all;
+}
+
+uint64_t Worlds::launches() const
+{
+  return implementation_->total<uint64_t>([](const Group &group) { return group.world->launches(); });
+}
+uint64_t Worlds::bytes_moved() const
+{
+  return implementation_->total<uint64_t>([](const Group &group) { return group.world->bytes_moved(); });
+}
+uint64_t Worlds::device_reads() const
+{
+  return implementation_->total<uint64_t>([](const Group &group) { return group.world->device_reads(); });
+}
+double Worlds::build_milliseconds() const
+{
+  return implementation_->total<double>([](const Group &group) { return group.world->build_milliseconds(); });
+}
 
 } // namespace tandem

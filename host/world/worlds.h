@@ -1,96 +1,183 @@
-/* worlds.h - the contents of a batch of worlds, behind the interface of <tandem/worlds.h>.
+/* worlds.h - the contents of a batch of worlds, behind the interface of <tandem/worlds.h>: one group of worlds, or
+ * several where threads of the CPU step them.
  *
- * A batch is one World whose scene has the bodies of all worlds, world after world. Its pipeline is that of any world:
- * every stage works by body or by pair, and what would depend on other worlds takes an index within the world instead,
- * under the feature WORLDS (docs/many-worlds.md lists the places). This class translates between both numberings and
- * keeps what a World has once and a batch has by world.
+ *                      a device                                 a CPU
+ *   worlds      0 1 2 3 4 5 6 7 8 9 10 11       0 1 2 3 | 4 5 6 7 | 8 9 10 11
+ *   launches   [ all of them, in one set  ]    [thread 0][thread 1][thread 0]
+ *
+ * Worlds do not depend on each other, so a group of them (host/world/worlds_group.h) goes through its step on one
+ * thread, which waits for no other one, and what it reads and writes stays in the caches of that thread. What a call
+ * gives to worlds of several groups, all of them take, or none.
  */
 #pragma once
 
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
 #include <tandem/worlds.h>
 
-#include "host/world/implementation.h"
-#include "host/world/scene_tables.h"
-#include "host/world/snapshot.h"
-#include "host/world/world_controls.h"
-#include "host/world/world_joints.h"
-#include "host/world/world_rows.h"
+#include "host/runtime/interface/floating_point.h"
+#include "host/runtime/part_threads.h"
+#include "host/world/worlds_group.h"
 
 namespace tandem {
-
-/* Throws InputError for settings that a batch does not have. */
-void check_batch_settings(const Settings &settings);
 
 struct Worlds::Implementation {
   Implementation(std::span<const Scene> scenes, uint32_t copies, const Settings &given, const Placement &placement);
 
-  World::Implementation &engine() { return *world->implementation_; }
-  const World::Implementation &engine() const { return *world->implementation_; }
+  /* --- numbers of worlds --- */
+  Group &group_of(uint32_t world) { return *groups[world / of_group]; }
+  uint32_t number_in_group(uint32_t world) const { return world % of_group; }
+  void check_world(const char *call, uint32_t world) const;
+  void check(const char *call, std::span<const uint32_t> given) const;
+  void check(const char *call, std::span<const WorldBody> given) const;
+  void check(const char *call, std::span<const WorldJoint> given);
+  bool is_kinematic(const WorldBody &body);
+  void check_properties(size_t entry, const WorldBody &body, const BodyProperties &properties);
 
-  /* --- numbers of worlds and bodies --- */
-  void check_world(const char *call, uint32_t number) const;
-  std::vector<BodyId> ids_of(const char *call, std::span<const WorldBody> given) const;
-  std::vector<JointId> ids_of(const char *call, std::span<const WorldJoint> given) const;
-  WorldPlace place_of(uint32_t number);
-  uint64_t steps(uint32_t number) const { return engine().statistics.steps - started[number]; }
-  Scene scene(uint32_t number);
-  void write_controls() { controls.write_scene(engine().scene); }
-
-  /* --- own gravity and starts: worlds_reset.cpp --- */
-  void upload_batch();
-  void upload_gravity(uint32_t first, uint32_t count);
-  void upload_starts(std::span<const BodyId> changed);
-  void reset(std::span<const uint32_t> given);
-  void take_out_of_quarantine(std::span<const uint32_t> numbers); /* numbers: ascending, as below */
-  void launch_reset(std::span<const uint32_t> numbers);
-  void launch_reset_of_joints(std::span<const uint32_t> numbers);
-  void launch_reset_of(std::span<const uint32_t> rows, Buffer list, Kernel kernel);
-
-  /* --- joints that break: worlds_breaks.cpp --- */
-  const WorldJoints &present_joints();
-  bool is_broken(uint32_t joint) const;
-  void enable_joints(std::span<const uint32_t> changed, bool enabled); /* by their numbers in the scene of all */
-  void mend(std::span<const uint32_t> numbers);
-  Scene mended(uint32_t number, Scene scene) const;
-  void break_as_in(uint32_t number, const Scene &scene);
-
-  /* --- worlds as they would be alone: worlds_alone.cpp --- */
-  bool has_alone(uint32_t number, Buffer buffer) const;
-  std::vector<Quarantine> quarantined(uint32_t number) const;
-  uint64_t state_hash(WorldReader &reader, uint32_t number, std::span<const Quarantine> own);
-  std::unique_ptr<World::Implementation> alone(uint32_t number, const Placement &placement);
-
-  /* --- a world that was saved: worlds_load.cpp --- */
-  struct CachedRange {
-    uint32_t begin, end; /* of the cached pairs */
+  /* --- what calls give to each group, and what groups answer --- */
+  template <class Item> struct Share {
+    Group *group;
+    std::vector<Item> items;    /* in the numbers of the group */
+    std::vector<size_t> places; /* of each in the call */
   };
-  void check_loaded(uint32_t number, const SnapshotContents &contents);
-  CachedRange cached_range(uint32_t number);
-  uint64_t pairs_with(const CachedRange &old, const SnapshotContents &contents);
-  void make_room_for(uint64_t pairs);
-  void load(uint32_t number, std::span<const std::byte> snapshot);
-  void load_pairs(uint32_t number, const CachedRange &old, uint64_t all_pairs, const SnapshotContents &contents);
-  void load_starts(const CachedRange &old, uint32_t first, std::span<const std::byte> rows);
-  void load_bodies(uint32_t number, const SnapshotContents &contents);
-  void load_joints(Buffer buffer, uint32_t number, std::span<const std::byte> rows);
+  template <class Item> std::vector<Share<Item>> shares_of(std::span<const Item> items);
+  /* Gives each group its items with their entries. All groups take them, or none. */
+  template <class Item, class Entry, class Call>
+  void call(std::span<const Item> items, std::span<const Entry> entries, const Call &call);
+  /* The same, where `read` says what items have now, and `write` gives them what they shall have. */
+  template <class Item, class Entry, class Read, class Write>
+  void replace(std::span<const Item> items, std::span<const Entry> entries, const Read &read, const Write &write);
+  /* What `function` answers for each group in turn, one behind the other. */
+  template <class Value, class Function> std::vector<Value> gathered(const Function &function);
+  template <class Value, class Function> Value total(const Function &function) const;
+  /* Calls function(k) for each group k, several at the same time. */
+  template <class Function> void for_each_group(const Function &function)
+  {
+    threads.run(groups.size(), PartFunction(function));
+  }
 
-  template <class Event> WorldEvents<Event> by_world(std::vector<Event> events) const;
+  void step(const StepLimits &limits);
+  void check_limits(const StepLimits &limits) const;
+  void reset(std::span<const uint32_t> given);
+  template <class Chosen> void choose_controls(std::span<const Chosen> chosen);
+  void set_controls(std::span<const uint32_t> given, std::span<const float> values);
 
-  Settings settings; /* as they were given */
-  SceneTables tables;
-  WorldJoints joints;                 /* of the joints as they were coloured then, as present_joints() asks */
-  uint64_t graph_of_joints = 0;       /* World::Implementation::graph_number then */
-  std::vector<bool> enabled_at_start; /* by joint of all worlds */
-  Controls controls;
-  uint32_t bodies = 0;           /* of each world */
-  std::vector<Vec3> gravity;     /* by world, as all that follows */
-  std::vector<uint64_t> started; /* steps of the batch when the world began */
-  std::vector<uint64_t> entered; /* when it was reset or loaded last: steps from then on have its events */
-  std::vector<bool> forced;      /* it was given forces */
-  std::vector<Features> features;
-  std::vector<bool> changed; /* its properties were set, so that it may have features which a new one has not */
-  std::vector<WorldBody> every_body;
-  std::unique_ptr<World> world;
+  Settings settings;
+  Placement placement;
+  uint32_t worlds = 0, bodies = 0; /* bodies: of each world */
+  uint32_t of_group = 1;           /* worlds of each group but the last */
+  PartThreads threads;             /* for several groups */
+  std::vector<std::unique_ptr<Group>> groups;
+  std::vector<WorldBody> every_body; /* made when it is first asked for */
 };
+
+inline uint32_t world_of(uint32_t world) { return world; }
+inline uint32_t world_of(const WorldBody &body) { return body.world; }
+inline uint32_t world_of(const WorldJoint &joint) { return joint.world; }
+inline uint32_t in_world(uint32_t, uint32_t number) { return number; }
+inline WorldBody in_world(const WorldBody &body, uint32_t number) { return {number, body.body}; }
+inline WorldJoint in_world(const WorldJoint &joint, uint32_t number) { return {number, joint.joint}; }
+
+template <class Item>
+std::vector<Worlds::Implementation::Share<Item>> Worlds::Implementation::shares_of(std::span<const Item> items)
+{
+  constexpr size_t none = size_t(-1);
+  std::vector<size_t> share_of(groups.size(), none);
+  std::vector<Share<Item>> shares;
+  for (size_t i = 0; i < items.size(); ++i) {
+    const uint32_t world = world_of(items[i]);
+    size_t &share = share_of[world / of_group];
+    if (share == none) {
+      share = shares.size();
+      shares.push_back({groups[world / of_group].get(), {}, {}});
+    }
+    shares[share].items.push_back(in_world(items[i], number_in_group(world)));
+    shares[share].places.push_back(i);
+  }
+  return shares;
+}
+
+template <class Entry> std::vector<Entry> entries_at(std::span<const size_t> places, std::span<const Entry> entries)
+{
+  std::vector<Entry> own;
+  own.reserve(places.size());
+  for (const size_t place : places) own.push_back(entries[place]);
+  return own;
+}
+
+template <class Item, class Entry, class Call>
+void Worlds::Implementation::call(std::span<const Item> items, std::span<const Entry> entries, const Call &call)
+{
+  if (groups.size() == 1) return call(*groups.front(), items, entries);
+  const std::vector<Share<Item>> shares = shares_of(items);
+  std::vector<Group::Mark> marks;
+  for (const Share<Item> &share : shares) marks.push_back(share.group->mark());
+  try {
+    for (const Share<Item> &share : shares)
+      call(*share.group, std::span<const Item>(share.items),
+           std::span<const Entry>(entries_at<Entry>(share.places, entries)));
+  } catch (...) {
+    for (size_t k = 0; k < shares.size(); ++k) shares[k].group->take_back(marks[k]);
+    throw;
+  }
+}
+
+template <class Item, class Entry, class Read, class Write>
+void Worlds::Implementation::replace(std::span<const Item> items, std::span<const Entry> entries, const Read &read,
+                                     const Write &write)
+{
+  if (groups.size() == 1) return write(*groups.front(), items, entries);
+  struct Replacement {
+    Share<Item> share;
+    std::vector<Entry> before, after;
+  };
+  std::vector<Replacement> replacements;
+  for (Share<Item> &share : shares_of(items)) {
+    std::vector<Entry> after = entries_at<Entry>(share.places, entries),
+                       before = read(*share.group, std::span<const Item>(share.items), std::span<const Entry>(after));
+    replacements.push_back({std::move(share), std::move(before), std::move(after)});
+  }
+  const auto put = [&](const Replacement &one, const std::vector<Entry> &values) {
+    write(*one.share.group, std::span<const Item>(one.share.items), std::span<const Entry>(values));
+  };
+  size_t done = 0;
+  try {
+    for (; done < replacements.size(); ++done) put(replacements[done], replacements[done].after);
+  } catch (...) {
+    while (done-- > 0) put(replacements[done], replacements[done].before); /* needs no more memory than it took */
+    throw;
+  }
+}
+
+template <class Value, class Function> std::vector<Value> Worlds::Implementation::gathered(const Function &function)
+{
+  if (groups.size() == 1) return function(*groups.front());
+  std::vector<std::vector<Value>> each(groups.size());
+  for_each_group([&](size_t k) { each[k] = function(*groups[k]); });
+  std::vector<Value> all;
+  for (const std::vector<Value> &values : each) all.insert(all.end(), values.begin(), values.end());
+  return all;
+}
+
+template <class Value, class Function> Value Worlds::Implementation::total(const Function &function) const
+{
+  Value sum{};
+  for (const std::unique_ptr<Group> &group : groups) sum += function(*group);
+  return sum;
+}
+
+template <class Chosen> void Worlds::Implementation::choose_controls(std::span<const Chosen> chosen)
+{
+  const minicl::ExactFloatingPoint environment;
+  std::vector<Controls> controls;
+  for (const std::unique_ptr<Group> &group : groups) {
+    group->write_controls();
+    controls.emplace_back(group->engine(), group->tables, chosen);
+  }
+  for (size_t k = 0; k < groups.size(); ++k) groups[k]->controls = std::move(controls[k]);
+}
 
 } // namespace tandem

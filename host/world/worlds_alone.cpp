@@ -3,7 +3,7 @@
 
 #include "host/base/hash.h"
 #include "host/runtime/interface/floating_point.h"
-#include "host/world/worlds.h"
+#include "host/world/worlds_group.h"
 
 namespace tandem {
 namespace {
@@ -24,14 +24,14 @@ uint64_t hash_of_bodies(WorldReader &reader, const WorldPlace &place)
 } // namespace
 
 /* Whether the world alone would have the buffer: others may have brought it in. */
-bool Worlds::Implementation::has_alone(uint32_t number, Buffer buffer) const
+bool Worlds::Group::has_alone(uint32_t number, Buffer buffer) const
 {
   const Features feature = row_of(buffer).feature;
   if (buffer == Buffer::body_force) return forced[number];
   return feature == 0 || (feature & features[number]) != 0;
 }
 
-std::vector<Quarantine> Worlds::Implementation::quarantined(uint32_t number) const
+std::vector<Quarantine> Worlds::Group::quarantined(uint32_t number) const
 {
   std::vector<Quarantine> own;
   for (Quarantine taken : engine().quarantined) {
@@ -43,7 +43,7 @@ std::vector<Quarantine> Worlds::Implementation::quarantined(uint32_t number) con
   return own;
 }
 
-uint64_t Worlds::Implementation::state_hash(WorldReader &reader, uint32_t number, std::span<const Quarantine> own)
+uint64_t Worlds::Group::state_hash(WorldReader &reader, uint32_t number, std::span<const Quarantine> own)
 {
   uint64_t hash = 0;
   for (const auto &[buffer, bytes] : reader.rows_of(place_of(number)))
@@ -52,7 +52,7 @@ uint64_t Worlds::Implementation::state_hash(WorldReader &reader, uint32_t number
   return hash;
 }
 
-std::unique_ptr<World::Implementation> Worlds::Implementation::alone(uint32_t number, const Placement &placement)
+std::unique_ptr<World::Implementation> Worlds::Group::alone(uint32_t number, const Placement &placement)
 {
   const minicl::ExactFloatingPoint environment;
   engine().settle();
@@ -79,58 +79,42 @@ std::unique_ptr<World::Implementation> Worlds::Implementation::alone(uint32_t nu
   return World::Implementation::made_of(std::move(contents), {}, placement, nullptr);
 }
 
-uint64_t Worlds::body_hash(uint32_t world)
+uint64_t Worlds::Group::body_hash(uint32_t number)
 {
-  implementation_->check_world("body_hash", world);
-  implementation_->engine().settle();
-  WorldReader reader(implementation_->engine().memory, implementation_->engine().buffers.carried(), false);
-  return hash_of_bodies(reader, implementation_->place_of(world));
+  engine().settle();
+  WorldReader reader(engine().memory, engine().buffers.carried(), false);
+  return hash_of_bodies(reader, place_of(number));
 }
 
-std::vector<uint64_t> Worlds::body_hashes()
+std::vector<uint64_t> Worlds::Group::body_hashes()
 {
-  implementation_->engine().settle();
-  WorldReader reader(implementation_->engine().memory, implementation_->engine().buffers.carried(), true);
+  engine().settle();
+  WorldReader reader(engine().memory, engine().buffers.carried(), true);
   std::vector<uint64_t> hashes;
-  for (uint32_t world = 0; world < count(); ++world)
-    hashes.push_back(hash_of_bodies(reader, implementation_->place_of(world)));
+  for (uint32_t number = 0; number < count(); ++number) hashes.push_back(hash_of_bodies(reader, place_of(number)));
   return hashes;
 }
 
-uint64_t Worlds::state_hash(uint32_t world)
+uint64_t Worlds::Group::state_hash(uint32_t number)
 {
-  implementation_->check_world("state_hash", world);
-  implementation_->engine().settle();
-  WorldReader reader(implementation_->engine().memory, implementation_->engine().buffers.carried(), false);
-  return implementation_->state_hash(reader, world, implementation_->quarantined(world));
+  engine().settle();
+  WorldReader reader(engine().memory, engine().buffers.carried(), false);
+  return state_hash(reader, number, quarantined(number));
 }
 
-std::vector<uint64_t> Worlds::state_hashes()
+std::vector<uint64_t> Worlds::Group::state_hashes()
 {
-  implementation_->engine().settle();
-  WorldReader reader(implementation_->engine().memory, implementation_->engine().buffers.carried(), true);
+  engine().settle();
+  WorldReader reader(engine().memory, engine().buffers.carried(), true);
   std::vector<std::vector<Quarantine>> taken(count());
-  for (Quarantine one : implementation_->engine().quarantined) {
-    const uint32_t world = one.body / bodies_of_world();
-    one.body -= world * bodies_of_world();
-    taken[world].push_back(std::move(one));
+  for (Quarantine one : engine().quarantined) {
+    const uint32_t number = one.body / bodies;
+    one.body -= number * bodies;
+    taken[number].push_back(std::move(one));
   }
   std::vector<uint64_t> hashes;
-  for (uint32_t world = 0; world < count(); ++world)
-    hashes.push_back(implementation_->state_hash(reader, world, taken[world]));
+  for (uint32_t number = 0; number < count(); ++number) hashes.push_back(state_hash(reader, number, taken[number]));
   return hashes;
-}
-
-std::unique_ptr<World> Worlds::alone(uint32_t world, const Placement &placement)
-{
-  implementation_->check_world("alone", world);
-  return std::unique_ptr<World>(new World(implementation_->alone(world, placement)));
-}
-
-std::vector<std::byte> Worlds::save(uint32_t world)
-{
-  implementation_->check_world("save", world);
-  return implementation_->alone(world, {"serial", {}})->save();
 }
 
 } // namespace tandem

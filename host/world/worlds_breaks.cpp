@@ -8,11 +8,11 @@
 #include <algorithm>
 
 #include "host/scene/joint_buffers.h"
-#include "host/world/worlds.h"
+#include "host/world/worlds_group.h"
 
 namespace tandem {
 
-const WorldJoints &Worlds::Implementation::present_joints()
+const WorldJoints &Worlds::Group::present_joints()
 {
   World::Implementation &all = engine();
   if (graph_of_joints != all.graph_number) {
@@ -23,7 +23,7 @@ const WorldJoints &Worlds::Implementation::present_joints()
 }
 
 /* Tables of joints are written with what their scene says. */
-void Worlds::Implementation::enable_joints(std::span<const uint32_t> changed, bool enabled)
+void Worlds::Group::enable_joints(std::span<const uint32_t> changed, bool enabled)
 {
   if (changed.empty()) return;
   write_controls();
@@ -32,7 +32,7 @@ void Worlds::Implementation::enable_joints(std::span<const uint32_t> changed, bo
   engine().put_joints(std::move(now), engine().joint_slots, changed);
 }
 
-void Worlds::Implementation::mend(std::span<const uint32_t> numbers)
+void Worlds::Group::mend(std::span<const uint32_t> numbers)
 {
   std::vector<uint32_t> broken;
   for (const uint32_t number : numbers)
@@ -41,13 +41,13 @@ void Worlds::Implementation::mend(std::span<const uint32_t> numbers)
   enable_joints(broken, true);
 }
 
-bool Worlds::Implementation::is_broken(uint32_t joint) const
+bool Worlds::Group::is_broken(uint32_t joint) const
 {
   return enabled_at_start[joint] && !engine().scene.joints[joint].enabled;
 }
 
 /* Joints that may break are taken as whole. */
-Scene Worlds::Implementation::mended(uint32_t number, Scene scene) const
+Scene Worlds::Group::mended(uint32_t number, Scene scene) const
 {
   for (uint32_t k = 0; k < std::min<size_t>(scene.joints.size(), tables.joints(number)); ++k)
     if (enabled_at_start[tables.first_joint(number) + k] && (features_of(scene.joints[k]) & FEATURE_JOINT_BREAKS))
@@ -56,7 +56,7 @@ Scene Worlds::Implementation::mended(uint32_t number, Scene scene) const
 }
 
 /* Those that are not enabled in the scene of a world that is loaded. */
-void Worlds::Implementation::break_as_in(uint32_t number, const Scene &scene)
+void Worlds::Group::break_as_in(uint32_t number, const Scene &scene)
 {
   std::vector<uint32_t> broken;
   for (uint32_t k = 0; k < scene.joints.size(); ++k)
@@ -65,17 +65,16 @@ void Worlds::Implementation::break_as_in(uint32_t number, const Scene &scene)
   enable_joints(broken, false);
 }
 
-WorldEvents<JointBreak> Worlds::joint_breaks() const
+WorldEvents<JointBreak> Worlds::Group::joint_breaks() const
 {
-  const Implementation &own = *implementation_;
-  const std::vector<JointBreak> &breaks = own.engine().joint_breaks;
+  const std::vector<JointBreak> &breaks = engine().joint_breaks;
   WorldEvents<JointBreak> result;
   result.first.push_back(0);
   size_t at = 0;
   for (uint32_t number = 0; number < count(); ++number) {
-    const uint32_t first = own.tables.first_joint(number), end = first + own.tables.joints(number);
+    const uint32_t first = tables.first_joint(number), end = first + tables.joints(number);
     for (; at < breaks.size() && breaks[at].joint.index < end; ++at) {
-      if (own.engine().statistics.steps == own.entered[number]) continue;
+      if (engine().statistics.steps == entered[number]) continue;
       result.all.push_back(breaks[at]);
       result.all.back().joint.index -= first;
     }

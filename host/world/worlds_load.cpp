@@ -8,7 +8,7 @@
 #include "host/runtime/interface/floating_point.h"
 #include "host/scene/built.h"
 #include "host/world/snapshot_scene.h"
-#include "host/world/worlds.h"
+#include "host/world/worlds_group.h"
 
 namespace tandem {
 namespace {
@@ -62,7 +62,7 @@ std::vector<std::byte> bytes_of(Settings settings)
 
 } // namespace
 
-void Worlds::Implementation::check_loaded(uint32_t number, const SnapshotContents &contents)
+void Worlds::Group::check_loaded(uint32_t number, const SnapshotContents &contents)
 {
   if (!contents.modules.empty() || !contents.islands.empty() || contents.substeps.automatic)
     throw InputError("load: the snapshot is of a world with modules, sleep or substeps auto, which a batch has not");
@@ -77,11 +77,11 @@ void Worlds::Implementation::check_loaded(uint32_t number, const SnapshotContent
       contents.special.order != specialise(own, settings).order)
     throw InputError(fmt::format("load: the snapshot is of another scene than that of world {}; shapes, materials, "
                                  "starts and properties of bodies must be equal",
-                                 number));
+                                 engine().first_world + number));
 }
 
 /* The starts of the cached pairs, for the world and those behind it. */
-void Worlds::Implementation::load_starts(const CachedRange &old, uint32_t first, std::span<const std::byte> rows)
+void Worlds::Group::load_starts(const CachedRange &old, uint32_t first, std::span<const std::byte> rows)
 {
   const uint32_t all = engine().bodies();
   std::vector<uint32_t> starts = engine().memory.read<uint32_t>(Buffer::cached_start, size_t{all} + 1);
@@ -92,20 +92,20 @@ void Worlds::Implementation::load_starts(const CachedRange &old, uint32_t first,
   engine().memory.upload(Buffer::cached_start, starts.data(), starts.size() * sizeof(uint32_t));
 }
 
-Worlds::Implementation::CachedRange Worlds::Implementation::cached_range(uint32_t number)
+Worlds::Group::CachedRange Worlds::Group::cached_range(uint32_t number)
 {
   const auto starts = engine().memory.read<uint32_t>(Buffer::cached_start, size_t{bodies} + 1, size_t{number} * bodies);
   return {starts.front(), starts.back()};
 }
 
 /* The cached pairs of all worlds, once those of the snapshot have replaced this range. */
-uint64_t Worlds::Implementation::pairs_with(const CachedRange &old, const SnapshotContents &contents)
+uint64_t Worlds::Group::pairs_with(const CachedRange &old, const SnapshotContents &contents)
 {
   const uint32_t all = engine().memory.read<uint32_t>(Buffer::cached_start, 1, engine().bodies()).front();
   return uint64_t{all} - (old.end - old.begin) + contents.pairs;
 }
 
-void Worlds::Implementation::make_room_for(uint64_t pairs)
+void Worlds::Group::make_room_for(uint64_t pairs)
 {
   World::Implementation &all = engine();
   if (pairs > settings.max_pairs)
@@ -118,8 +118,8 @@ void Worlds::Implementation::make_room_for(uint64_t pairs)
 }
 
 /* all_pairs: as pairs_with() says. */
-void Worlds::Implementation::load_pairs(uint32_t number, const CachedRange &old, uint64_t all_pairs,
-                                        const SnapshotContents &contents)
+void Worlds::Group::load_pairs(uint32_t number, const CachedRange &old, uint64_t all_pairs,
+                               const SnapshotContents &contents)
 {
   World::Implementation &all = engine();
   const uint32_t first = number * bodies;
@@ -139,7 +139,7 @@ void Worlds::Implementation::load_pairs(uint32_t number, const CachedRange &old,
   all.cached_pairs = static_cast<uint32_t>(all_pairs);
 }
 
-void Worlds::Implementation::load_bodies(uint32_t number, const SnapshotContents &contents)
+void Worlds::Group::load_bodies(uint32_t number, const SnapshotContents &contents)
 {
   World::Implementation &all = engine();
   const uint32_t first = number * bodies;
@@ -164,7 +164,7 @@ void Worlds::Implementation::load_bodies(uint32_t number, const SnapshotContents
   all.tell_articulations();
 }
 
-void Worlds::Implementation::load_joints(Buffer buffer, uint32_t number, std::span<const std::byte> rows)
+void Worlds::Group::load_joints(Buffer buffer, uint32_t number, std::span<const std::byte> rows)
 {
   const size_t item = item_bytes(buffer);
   for_each_run(items_of_joints(buffer, present_joints().of(number)), [&](size_t at, size_t first, size_t count) {
@@ -173,7 +173,7 @@ void Worlds::Implementation::load_joints(Buffer buffer, uint32_t number, std::sp
 }
 
 /* The world is reset first, which leaves nothing of what it was. */
-void Worlds::Implementation::load(uint32_t number, std::span<const std::byte> snapshot)
+void Worlds::Group::load(uint32_t number, std::span<const std::byte> snapshot)
 {
   const minicl::ExactFloatingPoint environment;
   const SnapshotContents contents = read_snapshot(snapshot, "load");
@@ -183,6 +183,7 @@ void Worlds::Implementation::load(uint32_t number, std::span<const std::byte> sn
   const CachedRange old = cached_range(number);
   const uint64_t pairs = pairs_with(old, contents);
   make_room_for(pairs);
+  prepare_reset(std::span(&number, 1));
   reset(std::span(&number, 1));
   break_as_in(number, contents.scene);
   load_pairs(number, old, pairs, contents);
@@ -193,12 +194,6 @@ void Worlds::Implementation::load(uint32_t number, std::span<const std::byte> sn
   forced[number] = contents.forces;
   features[number] = contents.special.features;
   changed[number] = true; /* before or after it was saved */
-}
-
-void Worlds::load(uint32_t world, std::span<const std::byte> snapshot)
-{
-  implementation_->check_world("load", world);
-  implementation_->load(world, snapshot);
 }
 
 } // namespace tandem

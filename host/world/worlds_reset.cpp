@@ -6,7 +6,7 @@
 #include "host/base/finite_vector.h"
 #include "host/pipeline/scene_counts.h"
 #include "host/runtime/interface/floating_point.h"
-#include "host/world/worlds.h"
+#include "host/world/worlds_group.h"
 
 namespace tandem {
 namespace {
@@ -22,7 +22,7 @@ constexpr size_t few_worlds = 16;
 
 } // namespace
 
-void Worlds::Implementation::upload_batch()
+void Worlds::Group::upload_batch()
 {
   const std::vector<uint32_t> &order = engine().special.order;
   std::vector<uint32_t> ranges;
@@ -36,7 +36,7 @@ void Worlds::Implementation::upload_batch()
 }
 
 /* A body that cannot move starts without a velocity. */
-void Worlds::Implementation::upload_starts(std::span<const BodyId> changed)
+void Worlds::Group::upload_starts(std::span<const BodyId> changed)
 {
   StagedUploads uploads;
   for (const BodyId &id : changed)
@@ -44,7 +44,7 @@ void Worlds::Implementation::upload_starts(std::span<const BodyId> changed)
   uploads.write(engine().memory);
 }
 
-void Worlds::Implementation::upload_gravity(uint32_t first, uint32_t count)
+void Worlds::Group::upload_gravity(uint32_t first, uint32_t count)
 {
   std::vector<float4> rows;
   rows.reserve(size_t{count} * bodies);
@@ -55,36 +55,50 @@ void Worlds::Implementation::upload_gravity(uint32_t first, uint32_t count)
                            size_t{first} * bodies * sizeof(float4));
 }
 
-void Worlds::set_gravity(std::span<const uint32_t> worlds, std::span<const Vec3> gravity)
+void Worlds::Group::set_gravity(std::span<const uint32_t> numbers, std::span<const Vec3> values)
 {
-  if (worlds.size() != gravity.size())
-    throw InputError(fmt::format("set_gravity: {} worlds and {} entries; one entry for each world is needed",
-                                 worlds.size(), gravity.size()));
-  for (size_t i = 0; i < worlds.size(); ++i) {
-    implementation_->check_world("set_gravity", worlds[i]);
-    if (!is_finite_vector(gravity[i]))
-      throw InputError(fmt::format("set_gravity: entry {}: gravity is {}; three finite numbers are needed", i,
-                                   vector_text(gravity[i])));
-  }
-  for (size_t i = 0; i < worlds.size(); ++i) implementation_->gravity[worlds[i]] = gravity[i];
-  if (worlds.size() > few_worlds) return implementation_->upload_gravity(0, count());
-  for (const uint32_t world : worlds) implementation_->upload_gravity(world, 1);
+  for (size_t i = 0; i < numbers.size(); ++i) gravity[numbers[i]] = values[i];
+  if (numbers.size() > few_worlds) return upload_gravity(0, count());
+  for (const uint32_t number : numbers) upload_gravity(number, 1);
 }
 
-void Worlds::Implementation::reset(std::span<const uint32_t> given)
+namespace {
+
+/* Lists of the host, over which launches of a reset run. */
+void make_room(Memory &memory, Buffer buffer, const std::vector<uint32_t> &list)
 {
-  std::vector<uint32_t> numbers(given.begin(), given.end());
-  std::sort(numbers.begin(), numbers.end());
-  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  if (list.empty()) return;
+  memory.grow(buffer, list.size() * sizeof(uint32_t));
+  memory.prepare_upload(buffer);
+}
+
+} // namespace
+
+void Worlds::Group::prepare_reset(std::span<const uint32_t> numbers)
+{
   World::Implementation &all = engine();
   all.settle();
   all.buffers.make_ready(all.sizes());
-  ++all.state;
   mend(numbers);
-  take_out_of_quarantine(numbers);
-  if (!numbers.empty() && bodies > 0) launch_reset(numbers);
+  resetting = {};
   for (const uint32_t number : numbers) {
-    started[number] = entered[number] = all.statistics.steps;
+    const JointPlaces own = present_joints().of(number);
+    resetting.firsts.push_back(number * bodies);
+    resetting.joints.insert(resetting.joints.end(), own.places.begin(), own.places.end());
+    resetting.couplings.insert(resetting.couplings.end(), own.couplings.begin(), own.couplings.end());
+  }
+  make_room(all.memory, Buffer::reset_world, resetting.firsts);
+  make_room(all.memory, Buffer::reset_joint, resetting.joints);
+  make_room(all.memory, Buffer::reset_coupling, resetting.couplings);
+}
+
+void Worlds::Group::reset(std::span<const uint32_t> numbers)
+{
+  ++engine().state;
+  take_out_of_quarantine(numbers);
+  if (!numbers.empty() && bodies > 0) launch_reset();
+  for (const uint32_t number : numbers) {
+    started[number] = entered[number] = engine().statistics.steps;
     if (changed[number]) features[number] = features_of(scene(number), settings);
     changed[number] = false;
     forced[number] = false;
@@ -92,7 +106,7 @@ void Worlds::Implementation::reset(std::span<const uint32_t> given)
 }
 
 /* Bodies in quarantine are fixed and have lost their mass; they get all their rows again. */
-void Worlds::Implementation::take_out_of_quarantine(std::span<const uint32_t> numbers)
+void Worlds::Group::take_out_of_quarantine(std::span<const uint32_t> numbers)
 {
   World::Implementation &all = engine();
   const auto begins_anew = [&](const Quarantine &taken) {
@@ -112,26 +126,11 @@ void Worlds::Implementation::take_out_of_quarantine(std::span<const uint32_t> nu
   if (std::erase_if(all.quarantined, begins_anew) > 0) all.tell_articulations();
 }
 
-namespace {
-
-/* Uploads a list of the host, over which the next launches run. */
-void upload_list(Memory &memory, Buffer buffer, const std::vector<uint32_t> &list, uint32_t items)
-{
-  const size_t bytes = list.size() * sizeof(uint32_t);
-  if (memory.bytes(buffer) < bytes) memory.resize(buffer, bytes + bytes / 2);
-  memory.upload(buffer, list.data(), bytes);
-  set_length(memory, items);
-}
-
-} // namespace
-
-void Worlds::Implementation::launch_reset(std::span<const uint32_t> numbers)
+void Worlds::Group::launch_reset()
 {
   World::Implementation &all = engine();
-  std::vector<uint32_t> firsts;
-  for (const uint32_t number : numbers) firsts.push_back(number * bodies);
-  const auto items = static_cast<uint32_t>(firsts.size()) * bodies;
-  upload_list(all.memory, Buffer::reset_world, firsts, items);
+  const auto items = static_cast<uint32_t>(resetting.firsts.size()) * bodies;
+  upload_for_reset(Buffer::reset_world, resetting.firsts, items);
   const auto launch = [&](Kernel kernel, const Slots &slots = {}) {
     all.launcher.launch({kernel, slots, {bodies}, COUNT_ZERO, COUNT_LENGTH, items});
   };
@@ -139,27 +138,23 @@ void Worlds::Implementation::launch_reset(std::span<const uint32_t> numbers)
   if (settings.events) launch(Kernel::reset_touching);
   if (all.plan.forces) launch(Kernel::reset_forces, {Buffer::body_force});
   if (all.memory.bytes(Buffer::body_joint_force) > 0) launch(Kernel::reset_forces, {Buffer::body_joint_force});
-  launch_reset_of_joints(numbers);
+  launch_reset_of(resetting.joints, Buffer::reset_joint, Kernel::reset_joints);
+  launch_reset_of(resetting.couplings, Buffer::reset_coupling, Kernel::reset_couplings);
 }
 
-void Worlds::Implementation::launch_reset_of_joints(std::span<const uint32_t> numbers)
-{
-  std::vector<uint32_t> places, coupled;
-  for (const uint32_t number : numbers) {
-    const JointPlaces own = present_joints().of(number);
-    places.insert(places.end(), own.places.begin(), own.places.end());
-    coupled.insert(coupled.end(), own.couplings.begin(), own.couplings.end());
-  }
-  launch_reset_of(places, Buffer::reset_joint, Kernel::reset_joints);
-  launch_reset_of(coupled, Buffer::reset_coupling, Kernel::reset_couplings);
-}
-
-void Worlds::Implementation::launch_reset_of(std::span<const uint32_t> rows, Buffer list, Kernel kernel)
+void Worlds::Group::launch_reset_of(const std::vector<uint32_t> &rows, Buffer list, Kernel kernel)
 {
   if (rows.empty()) return;
   const auto items = static_cast<uint32_t>(rows.size());
-  upload_list(engine().memory, list, {rows.begin(), rows.end()}, items);
+  upload_for_reset(list, rows, items);
   engine().launcher.launch({kernel, {}, {}, COUNT_ZERO, COUNT_LENGTH, items});
+}
+
+/* The next launches run over so many items. */
+void Worlds::Group::upload_for_reset(Buffer buffer, const std::vector<uint32_t> &list, uint32_t items)
+{
+  engine().memory.upload(buffer, list.data(), list.size() * sizeof(uint32_t));
+  set_length(engine().memory, items);
 }
 
 } // namespace tandem

@@ -6,9 +6,9 @@
  *   std::vector<BodyState> bodies = worlds.bodies(); // that of body b in world w at [w * worlds.bodies_of_world() + b]
  *   worlds.reset(3);
  *
- * All worlds go through one set of launches. Each of them has the bits that it would have alone, as a World of its
- * scene, on every backend: it does not matter how many others there are, what they do, and which index it has. Buffers
- * are shared and grow; no contact is dropped.
+ * On a device all worlds go through one set of launches; threads of a CPU take groups of them through a step each. A
+ * world has the bits that it would have alone, as a World of its scene, on every backend: it does not matter how many
+ * others there are, what they do, and which index it has. Buffers are shared and grow; no contact is dropped.
  *
  * Worlds of a batch have equally many bodies, which none of them gains or loses, and one Settings. Pairs are looked for
  * among all bodies of a world, which suits worlds of up to some hundreds of bodies. InputError says of Settings what a
@@ -151,7 +151,7 @@ public:
   WorldEvents<JointBreak> joint_breaks() const;
   /* The bodies of a world that were taken out of it since it was made or reset; `step` counts as steps() does. */
   std::vector<Quarantine> quarantined(uint32_t world) const;
-  Statistics statistics(); /* over all worlds; steps: of the batch */
+  Statistics statistics(); /* over all worlds; steps: of the batch; overflow: the most of any group of worlds */
 
   /* What body_hash and state_hash of the world would be alone; or of all worlds. */
   uint64_t body_hash(uint32_t world);
@@ -167,7 +167,7 @@ public:
    * contacts of the batch. InputError if the scenes differ, or as World's constructor says of the bytes. */
   void load(uint32_t world, std::span<const std::byte> snapshot);
 
-  /* As those of World. */
+  /* As those of World; launches, and times of kernels, are sums over groups that threads step at the same time. */
   PlacementReport placement_report() const;
   bool is_placed() const;
   bool wait_until_placed(double seconds = std::numeric_limits<double>::infinity());
@@ -182,6 +182,7 @@ public:
 
 private:
   struct Implementation;
+  class Group;
   class Controls;
   std::unique_ptr<Implementation> implementation_;
 };
