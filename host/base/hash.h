@@ -31,12 +31,15 @@ inline uint64_t hash_bytes(const void *data, size_t bytes, uint64_t seed = 0)
     std::memcpy(&w, at + offset, size);
     return w;
   };
+  const auto take = [&](uint64_t &lane, uint64_t w) { lane = std::rotl((lane ^ w) * 0x9e3779b97f4a7c15u, 29); };
   size_t offset = 0;
-  for (; offset + 32 <= bytes; offset += 32)
-    for (int lane = 0; lane < 4; ++lane)
-      lanes[lane] = std::rotl((lanes[lane] ^ word(offset + 8 * lane, 8)) * 0x9e3779b97f4a7c15u, 29);
-  for (; offset < bytes; offset += 8)
-    lanes[0] = std::rotl((lanes[0] ^ word(offset, std::min<size_t>(8, bytes - offset))) * 0x9e3779b97f4a7c15u, 29);
+  for (; offset + 32 <= bytes; offset += 32) { /* a loop over the lanes keeps them in memory, at half of the speed */
+    take(lanes[0], word(offset, 8));
+    take(lanes[1], word(offset + 8, 8));
+    take(lanes[2], word(offset + 16, 8));
+    take(lanes[3], word(offset + 24, 8));
+  }
+  for (; offset < bytes; offset += 8) take(lanes[0], word(offset, std::min<size_t>(8, bytes - offset)));
   uint64_t result = mix_bits(bytes + seed);
   for (uint64_t lane : lanes) result = mix_bits(result ^ lane);
   return result;

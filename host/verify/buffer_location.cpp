@@ -1,6 +1,7 @@
 /* buffer_location.cpp - decodes, compares and hashes the numbers of buffers; see buffer_location.h. */
 #include "host/verify/buffer_location.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -64,19 +65,35 @@ double real_at(Buffer buffer, const void *scalar)
   return value;
 }
 
-template <class Real> bool any_nan(const void *contents, size_t bytes)
+/* The signs of two floats in a word: set for NaN, since what is past the bits of infinity carries into them. */
+uint64_t carries_of_nan(uint64_t two_floats) { return (two_floats & 0x7fffffff7fffffffu) + 0x007fffff007fffffu; }
+
+/* Eight at once, a sixth of the time of one by one: every buffer that is compared is read here. */
+bool any_nan(const float *numbers, size_t count)
 {
-  const Real *numbers = static_cast<const Real *>(contents);
-  size_t found = 0;
-  for (size_t k = 0; k < bytes / sizeof(Real); ++k) found += std::isnan(numbers[k]);
-  return found > 0;
+  uint64_t carries = 0;
+  size_t k = 0;
+  for (; k + 8 <= count; k += 8) {
+    uint64_t words[4];
+    std::memcpy(words, numbers + k, sizeof words);
+    carries |=
+        carries_of_nan(words[0]) | carries_of_nan(words[1]) | carries_of_nan(words[2]) | carries_of_nan(words[3]);
+  }
+  const bool found = (carries & 0x8000000080000000u) != 0;
+  return found || std::any_of(numbers + k, numbers + count, [](float number) { return std::isnan(number); });
+}
+
+bool any_nan(const double *numbers, size_t count)
+{
+  return std::any_of(numbers, numbers + count, [](double number) { return std::isnan(number); });
 }
 
 /* Replaces every NaN by the same one before hashing. */
 template <class Real> uint64_t hash_reals(const void *contents, size_t bytes)
 {
-  if (!any_nan<Real>(contents, bytes)) return hash_bytes(contents, bytes);
-  std::vector<Real> numbers(bytes / sizeof(Real));
+  const size_t count = bytes / sizeof(Real);
+  if (!any_nan(static_cast<const Real *>(contents), count)) return hash_bytes(contents, bytes);
+  std::vector<Real> numbers(count);
   std::memcpy(numbers.data(), contents, bytes);
   for (Real &number : numbers)
     if (std::isnan(number)) number = std::numeric_limits<Real>::quiet_NaN();

@@ -291,6 +291,22 @@ TEST_CASE("compare: NaN equals NaN of any sign and payload, and nothing else", "
   CHECK(hash_numbers(integers, &nan, 4) != hash_numbers(integers, &minus_nan, 4));
 }
 
+TEST_CASE("compare: NaN is found at any place of a buffer of any length", "[compare]")
+{
+  for (size_t count = 1; count <= 21; ++count)
+    for (size_t place = 0; place < count; ++place)
+      for (const uint32_t ordinary : {0x00000000u, 0x80000000u, 0x7f7fffffu, 0x7f800000u, 0xff800000u}) {
+        std::vector<uint32_t> one(count, ordinary), other = one, infinite = one;
+        one[place] = 0x7f800001u, other[place] = 0xffffffffu, infinite[place] = 0x7f800000u;
+        CAPTURE(count, place, ordinary);
+        const auto hash = [&](const std::vector<uint32_t> &numbers) {
+          return hash_numbers(Buffer::solver_velocity, numbers.data(), 4 * count);
+        };
+        CHECK(hash(one) == hash(other));
+        CHECK(hash(one) != hash(infinite));
+      }
+}
+
 TEST_CASE("compare: a NaN of another sign is not taken for the first number that differs", "[compare]")
 {
   ComparisonRequest request = request_of({"serial", "tbb:threads=1,lanes=4"}, 2);
