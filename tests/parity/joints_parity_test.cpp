@@ -100,9 +100,10 @@ TEST_CASE("parity on CPU: joints with every batching")
 TEST_CASE("parity on OpenCL: joints")
 {
   require_pocl();
-  require_parity(joint_crowd(1, 60), {"serial", "cl:pocl"}, 10);
-  require_parity(bridge(), {"serial", "cl:pocl"}, 20);
-  require_parity(joint_axes(), {"serial", "cl:pocl"}, 20);
+  const Settings settings = build_of_all_features();
+  require_parity(joint_crowd(1, 60), {"serial", "cl:pocl"}, 10, settings);
+  require_parity(bridge(), {"serial", "cl:pocl"}, 20, settings);
+  require_parity(joint_axes(), {"serial", "cl:pocl"}, 20, settings);
 }
 
 TEST_CASE("joints in their own place, and with every feature built, have the same bits")

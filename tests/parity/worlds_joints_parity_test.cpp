@@ -89,7 +89,7 @@ TEST_CASE("parity on CPU: worlds of a batch with joints have the bits of worlds 
 TEST_CASE("parity with PoCL: worlds of a batch with joints have the bits of worlds alone")
 {
   require_pocl();
-  require_what_batches_have_apart("cl:pocl", 6);
+  require_what_batches_have_apart("cl:pocl", 6, build_of_all_features());
 }
 
 /* The crowds must do what they are for. */

@@ -197,8 +197,9 @@ TEST_CASE("six hundred steps after a snapshot, with creations and removals, have
 TEST_CASE("parity on PoCL: a snapshot goes to the device and back")
 {
   require_pocl();
-  require_goes_on(yard(), watched(), "serial", {"cl:pocl"}, 40, 20);
-  require_goes_on(yard(), watched(), "cl:pocl", {"serial"}, 40, 20);
+  const Settings settings = build_of_all_features(watched());
+  require_goes_on(yard(), settings, "serial", {"cl:pocl"}, 40, 20);
+  require_goes_on(yard(), settings, "cl:pocl", {"serial"}, 40, 20);
 }
 
 TEST_CASE("snapshots hold what each solver and broadphase hands on", "[sanitizer]")
