@@ -74,13 +74,14 @@ typedef struct {
   BUFFER(solver_inertia, float4, inertia)                                                                              \
   BUFFER(solver_delta_pose, float4, delta)
 
-/* The bodies of solve/avbd_bodies.h, each a block of the descent. */
+/* The bodies of solve/avbd_bodies.h, each a block of the descent, and their order by colour. */
 #define GROUP_blocks(BUFFER)                                                                                           \
   BUFFER(body_mass, float4, mass)                                                                                      \
   BUFFER(avbd_target, float4, target)                                                                                  \
   BUFFER(solver_inertia, float4, inertia)                                                                              \
   BUFFER(solver_delta_pose, float4, delta)                                                                             \
-  BUFFER(solver_orientation, float4, orientation)
+  BUFFER(solver_orientation, float4, orientation)                                                                      \
+  BUFFER(sort_value, uint, order)
 
 /* The bodies of joints: with orientations, because arms and frames turn with them. */
 #define GROUP_turning_bodies(BUFFER)                                                                                   \
@@ -345,10 +346,12 @@ typedef struct {
   BUFFER(split_previous_normal, float4, previous_normal)                                                               \
   BUFFER(split_previous_friction, float4, previous_friction)
 
-/* The constraints of each body. */
-#define GROUP_body_constraint_lists(BUFFER)                                                                            \
+/* The constraints of each body, and its joints. */
+#define GROUP_body_lists(BUFFER)                                                                                       \
   BUFFER(body_constraint_start, uint, start)                                                                           \
-  BUFFER(body_constraint, uint, entries)
+  BUFFER(body_constraint, uint, entries)                                                                               \
+  BUFFER(body_joint_start, uint, joint_start)                                                                          \
+  BUFFER(body_joint, uint, joint_entries)
 
 /* The pairs of the last step, and the contacts of those that touched. */
 #define GROUP_cached_pairs(BUFFER)                                                                                     \
@@ -394,8 +397,8 @@ typedef struct {
   GROUP_iterates(WRITE_MEMBER)
 } write_iterates;
 typedef struct {
-  GROUP_body_constraint_lists(READ_MEMBER)
-} read_body_constraint_lists;
+  GROUP_body_lists(READ_MEMBER)
+} read_body_lists;
 typedef struct {
   GROUP_cached_pairs(READ_MEMBER)
 } read_cached_pairs;
@@ -444,6 +447,42 @@ typedef struct {
   BUFFER(cached_joint_angular_impulse, float4, angular)                                                                \
   BUFFER(cached_joint_axis_impulse, float4, axis)
 
+/* The multipliers and penalties of joints in joints/avbd.h, and what a substep leaves open. */
+#define GROUP_joint_duals(BUFFER)                                                                                      \
+  BUFFER(joint_linear_impulse, float4, linear)                                                                         \
+  BUFFER(joint_angular_impulse, float4, angular)                                                                       \
+  BUFFER(joint_axis_impulse, float4, axis)                                                                             \
+  BUFFER(joint_linear_penalty, float4, linear_penalty)                                                                 \
+  BUFFER(joint_angular_penalty, float4, angular_penalty)                                                               \
+  BUFFER(joint_axis_penalty, float4, axis_penalty)                                                                     \
+  BUFFER(joint_linear_left, float4, linear_left)                                                                       \
+  BUFFER(joint_angular_left, float4, angular_left)                                                                     \
+  BUFFER(joint_axis_left, memory_real, axis_left)
+
+/* The same with what joints limit, drive and brake, for a body that is moved against its joints. */
+#define GROUP_joint_blocks(BUFFER)                                                                                     \
+  BUFFER(joint_axis_kind, uint, kind)                                                                                  \
+  BUFFER(joint_axis_row, float4, row)                                                                                  \
+  BUFFER(joint_linear_impulse, float4, linear)                                                                         \
+  BUFFER(joint_angular_impulse, float4, angular)                                                                       \
+  BUFFER(joint_axis_impulse, float4, axis)                                                                             \
+  BUFFER(joint_linear_penalty, float4, linear_penalty)                                                                 \
+  BUFFER(joint_angular_penalty, float4, angular_penalty)                                                               \
+  BUFFER(joint_axis_penalty, float4, axis_penalty)                                                                     \
+  BUFFER(joint_linear_left, float4, linear_left)                                                                       \
+  BUFFER(joint_angular_left, float4, angular_left)                                                                     \
+  BUFFER(joint_axis_left, memory_real, axis_left)
+
+#define GROUP_joint_penalties(BUFFER)                                                                                  \
+  BUFFER(joint_linear_penalty, float4, linear)                                                                         \
+  BUFFER(joint_angular_penalty, float4, angular)                                                                       \
+  BUFFER(joint_axis_penalty, float4, axis)
+
+#define GROUP_cached_joint_penalties(BUFFER)                                                                           \
+  BUFFER(cached_joint_linear_penalty, float4, linear)                                                                  \
+  BUFFER(cached_joint_angular_penalty, float4, angular)                                                                \
+  BUFFER(cached_joint_axis_penalty, float4, axis)
+
 /* Joints that are coupled, and how; the joints of a coupling are numbered by their places. */
 #define GROUP_couplings(BUFFER)                                                                                        \
   BUFFER(coupling_a, uint, a)                                                                                          \
@@ -460,6 +499,24 @@ typedef struct {
 typedef struct {
   GROUP_joint_axes(READ_MEMBER)
 } read_joint_axes;
+typedef struct {
+  GROUP_joint_duals(WRITE_MEMBER)
+} write_joint_duals;
+typedef struct {
+  GROUP_joint_blocks(READ_MEMBER)
+} read_joint_blocks;
+typedef struct {
+  GROUP_joint_penalties(READ_MEMBER)
+} read_joint_penalties;
+typedef struct {
+  GROUP_joint_penalties(WRITE_MEMBER)
+} write_joint_penalties;
+typedef struct {
+  GROUP_cached_joint_penalties(READ_MEMBER)
+} read_cached_joint_penalties;
+typedef struct {
+  GROUP_cached_joint_penalties(WRITE_MEMBER)
+} write_cached_joint_penalties;
 typedef struct {
   GROUP_joint_worlds(READ_MEMBER)
 } read_joint_worlds;

@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <numeric>
 #include <set>
 #include <utility>
 
@@ -295,6 +296,27 @@ void stage_bodies_of_joints(StagedUploads &uploads, const Scene &scene, const Jo
   table.add(awake);
   table.add(graph.without_rows);
   uploads.add_elements(Buffer::body_filter, std::move(table).words(), first_pair);
+}
+
+void stage_joints_of_bodies(StagedUploads &uploads, const Scene &scene, std::span<const uint32_t> awake,
+                            std::span<const uint32_t> index_of_body, size_t room)
+{
+  const auto visit = [&](const auto &at) {
+    for (uint32_t place = 0; place < awake.size(); ++place)
+      for (const uint32_t side : {0u, 1u}) {
+        const Joint &joint = scene.joints[awake[place]];
+        const uint32_t body = side == 0 ? joint.body_a : joint.body_b;
+        if (can_be_pushed(scene, body)) at(index_of_body[body], 2 * place + side);
+      }
+  };
+  std::vector<uint32_t> start(room + 1), next;
+  visit([&](uint32_t body, uint32_t) { ++start[body + 1]; });
+  std::partial_sum(start.begin(), start.end(), start.begin());
+  next = start;
+  std::vector<uint32_t> entries(start.back());
+  visit([&](uint32_t body, uint32_t entry) { entries[next[body]++] = entry; });
+  uploads.add(Buffer::body_joint, std::move(entries));
+  uploads.add(Buffer::body_joint_start, std::move(start));
 }
 
 } // namespace tandem

@@ -58,4 +58,8 @@ void stage_bodies_of_joints(StagedUploads &uploads, const Scene &scene, const Jo
                             std::span<const uint32_t> awake, std::span<const uint32_t> index_of_body,
                             uint32_t first_pair);
 
+/* The other direction: the joints of each body that joints push. room: for bodies, in the buffers. */
+void stage_joints_of_bodies(StagedUploads &uploads, const Scene &scene, std::span<const uint32_t> awake,
+                            std::span<const uint32_t> index_of_body, size_t room);
+
 } // namespace tandem

@@ -77,7 +77,7 @@ World::Implementation::Implementation(Beginning beginning, const Placement &plac
       launcher(memory, [this](Kernel kernel) -> Backend & { return backends.of(kernel); }), parts(memory)
 {
   check_built(scene_features, scene, settings, scene.name);
-  check_joints(settings, scene);
+  check_couplings(settings, scene);
   check_articulations(settings, scene);
   launcher.set_on_commit([this] { turn(); });
   plan.forces = beginning.forces || module_applies_forces();

@@ -66,8 +66,8 @@ uint64_t room_for(uint64_t needed);
 /* Throws InputError if the body has locked axes and the solver holds none. */
 void check_solver(const Settings &settings, const Body &body, size_t index, const std::string &where);
 
-/* Throws InputError if the scene has joints and the settings ask for what has none. */
-void check_joints(const Settings &settings, const Scene &scene);
+/* Throws InputError if the scene has couplings and the solver has none. */
+void check_couplings(const Settings &settings, const Scene &scene);
 
 struct World::Implementation {
   /* What a world begins with: a scene, or what a snapshot holds. */

@@ -175,7 +175,7 @@ void World::Implementation::exchange_joints(std::vector<Joint> joints, const Joi
   std::string reason = "joints came that the buffers had no room or no tables for";
   PlacedJoints placed(*this, std::move(joints), std::move(graph));
   check_built(features_of(scene, settings), scene, settings, scene.name);
-  check_joints(settings, scene);
+  check_couplings(settings, scene);
   const bool fits = fits_tables(placed.joints_before(), placed.graph_before());
   if (fits) write_joints(impulses);
   else lay_out_anew(std::span<const uint32_t>{}, &impulses);

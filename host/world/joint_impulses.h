@@ -1,7 +1,8 @@
-/* joint_impulses.h - the impulses that joints hand on to the next step, by joint of the scene, while joints change
- * their places in the buffers (host/world/joint_order.h). */
+/* joint_impulses.h - the impulses that joints hand on to the next step, and with avbd the penalties, by joint of the
+ * scene, while joints change their places in the buffers (host/world/joint_order.h). */
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -19,9 +20,9 @@ public:
 
   void forget(uint32_t joint); /* it begins with none */
   /* Of a joint, or 0 where it has none; axis: of those that it limits, drives or brakes. */
-  float4 linear(uint32_t joint) const { return of(linear_, joint, 0); }
-  float4 angular(uint32_t joint) const { return of(angular_, joint, 0); }
-  float4 axis(uint32_t joint, uint32_t axis) const { return of(axis_, joint, axis); }
+  float4 linear(uint32_t joint) const { return of(rows_[0], joint, 0); }
+  float4 angular(uint32_t joint) const { return of(rows_[1], joint, 0); }
+  float4 axis(uint32_t joint, uint32_t axis) const { return of(rows_[2], joint, axis); }
   /* For joints in a new order; also into what the next step will write, which leaves the rows of joints that sleep or
    * are not enabled. */
   void stage(StagedUploads &uploads, std::span<const uint32_t> by_place, uint32_t axes) const;
@@ -35,7 +36,7 @@ private:
   float4 of(const Rows &rows, uint32_t joint, uint32_t plane) const;
 
   size_t joints_;
-  Rows linear_, angular_, axis_;
+  std::array<Rows, 6> rows_; /* impulses, then penalties: linear, angular, of axes */
 };
 
 } // namespace tandem

@@ -18,22 +18,21 @@
 namespace tandem {
 namespace {
 
-std::string solvers_with_joints()
+std::string solvers_with_couplings()
 {
   std::vector<std::string_view> names;
   for (const SolverRow &row : solvers())
-    if (row.joints) names.push_back(row.name);
+    if (row.couplings) names.push_back(row.name);
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
 } // namespace
 
-void check_joints(const Settings &settings, const Scene &scene)
+void check_couplings(const Settings &settings, const Scene &scene)
 {
-  if (scene.joints.empty()) return;
-  if (!solves_joints(settings.solver))
-    throw InputError(fmt::format("{}: the solver {} has no joints, of which the scene has {}; {} have them", scene.name,
-                                 name_of(settings.solver), scene.joints.size(), solvers_with_joints()));
+  if (scene.couplings.empty() || solves_couplings(settings.solver)) return;
+  throw InputError(fmt::format("{}: the solver {} has no couplings, of which the scene has {}; {} have them",
+                               scene.name, name_of(settings.solver), scene.couplings.size(), solvers_with_couplings()));
 }
 
 /* order: of the bodies in the buffers. */
@@ -43,6 +42,8 @@ void World::Implementation::stage_joint_tables(StagedUploads &uploads, std::span
   for (uint32_t i = 0; i < order.size(); ++i) indices[order[i]] = i;
   stage_joints(uploads, scene, joint_graph, joint_order.joints(), indices, plan.bodies);
   stage_bodies_of_joints(uploads, scene, joint_graph, joint_order.awake(), indices, first_joined_pair(sizes()));
+  if (special.features & FEATURE_AVBD)
+    stage_joints_of_bodies(uploads, scene, joint_order.awake(), indices, plan.bodies);
   stage_couplings(uploads, scene, coupling_graph);
   stage_joints_of_couplings(uploads, scene, coupling_graph, joint_order.awake());
   if (!(special.features & FEATURE_ARTICULATIONS)) return;

@@ -20,8 +20,8 @@ std::vector<BodyRows> World::Implementation::joint_rows(const std::vector<bool> 
   for (size_t i = 0; i < touched.size(); ++i) {
     const Buffer buffer = buffer_at(i);
     const bool is_of_scene = row_of(buffer).lifetime == Lifetime::SCENE && has_rows_of_joints(row_of(buffer));
-    if (is_of_scene && is_filled(touched, buffer) && buffer != Buffer::joint_a && buffer != Buffer::joint_b)
-      rows.push_back({buffer, {buffer}});
+    const bool tells_bodies = buffer == Buffer::joint_a || buffer == Buffer::joint_b || buffer == Buffer::body_joint;
+    if (is_of_scene && is_filled(touched, buffer) && !tells_bodies) rows.push_back({buffer, {buffer}});
   }
   for (const CarriedBuffer &carried : buffers.carried())
     if (is_filled(touched, carried.now) && has_rows_of_joints(row_of(carried.now)))
@@ -65,6 +65,8 @@ void World::Implementation::tell_joints()
   if (scene.joints.empty() && scene.articulations.empty()) return;
   StagedUploads uploads;
   stage_bodies_of_joints(uploads, scene, joint_graph, joint_order.awake(), index_of_body, first_joined_pair(sizes()));
+  if (special.features & FEATURE_AVBD)
+    stage_joints_of_bodies(uploads, scene, joint_order.awake(), index_of_body, plan.bodies);
   stage_joints_of_couplings(uploads, scene, coupling_graph, joint_order.awake());
   if (!scene.articulations.empty())
     stage_bodies_of_links(uploads, links, index_of_body, plan.bodies, slots.status(), special.awake);

@@ -1,4 +1,5 @@
-/* body_coloring.h - deterministic parallel colouring of the bodies: no two bodies of one colour share a constraint.
+/* body_coloring.h - deterministic parallel colouring of the bodies: no two bodies of one colour share a constraint
+ * or a joint.
  *
  * A solver that moves whole bodies one after another can move all bodies of one colour at once. Every body has a
  * priority, a bijective hash of its index. A body takes the lowest colour that no neighbour of higher priority has, as
@@ -17,11 +18,12 @@
 #include "shared/batching/coloring.h"
 #include "shared/parallel/search.h"
 
-/* Dynamic bodies with at least one constraint are to be coloured; the others take no part. */
-SHARED void body_color_begin_item(GLOBAL const uint *body_constraint_start, GLOBAL uint *counts,
+/* Dynamic bodies with at least one constraint or joint are to be coloured; the others take no part. */
+SHARED void body_color_begin_item(GLOBAL const Parameters *parameters, read_body_lists lists, GLOBAL uint *counts,
                                   GLOBAL uint *body_color, uint i)
 {
-  uint touched = body_constraint_start[i] != body_constraint_start[i + 1u] ? 1u : 0u;
+  uint touched = lists.start[i] != lists.start[i + 1u] ? 1u : 0u;
+  if (HAS_FEATURE(parameters, JOINTS) && lists.joint_start[i] != lists.joint_start[i + 1u]) touched = 1u;
   body_color[2u * i] = touched ? COLOR_NONE : COLOR_INACTIVE;
   if (touched) ATOMIC_ADD(counts + COUNT_UNCOLORED, 1u);
 }
@@ -31,32 +33,45 @@ typedef struct {
   uint low, high, waits;
 } neighbor_colors;
 
-SHARED neighbor_colors colors_around(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
-                                     GLOBAL const uint *body_constraint_start, GLOBAL const uint *body_constraint,
-                                     GLOBAL const uint *body_color, uint plane, uint body)
+SHARED void add_neighbor(neighbor_colors *around, GLOBAL const uint *body_color, uint plane, uint body, uint other)
 {
-  neighbor_colors around = {0u, 0u, 0u};
-  uint priority = bid_of(body);
-  for (uint k = body_constraint_start[body]; k < body_constraint_start[body + 1u]; ++k) {
-    uint entry = body_constraint[k], constraint = entry >> 1u;
-    uint other = (entry & 1u) != 0u ? constraint_a[constraint] : constraint_b[constraint];
-    uint color = body_color[2u * other + plane];
-    if (color == COLOR_INACTIVE || bid_of(other) < priority) continue;
-    if (color == COLOR_NONE) around.waits = 1u;
-    else if (color < 32u) around.low |= 1u << color;
-    else if (color < COLOR_LIMIT) around.high |= 1u << (color & 31u);
-  }
-  return around;
+  uint color = body_color[2u * other + plane];
+  if (color == COLOR_INACTIVE || bid_of(other) < bid_of(body)) return;
+  if (color == COLOR_NONE) around->waits = 1u;
+  else if (color < 32u) around->low |= 1u << color;
+  else if (color < COLOR_LIMIT) around->high |= 1u << (color & 31u);
 }
 
-SHARED void body_color_round_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
-                                  GLOBAL const uint *body_constraint_start, GLOBAL const uint *body_constraint,
-                                  GLOBAL uint *counts, GLOBAL uint *body_color, uint round, uint i)
+SHARED void add_neighbors_by_constraints(neighbor_colors *around, GLOBAL const uint *constraint_a,
+                                         GLOBAL const uint *constraint_b, read_body_lists lists,
+                                         GLOBAL const uint *body_color, uint plane, uint body)
+{
+  for (uint k = lists.start[body]; k < lists.start[body + 1u]; ++k) {
+    uint entry = lists.entries[k], constraint = entry >> 1u;
+    add_neighbor(around, body_color, plane, body,
+                 (entry & 1u) != 0u ? constraint_a[constraint] : constraint_b[constraint]);
+  }
+}
+
+SHARED void add_neighbors_by_joints(neighbor_colors *around, GLOBAL const uint *joint_a, GLOBAL const uint *joint_b,
+                                    read_body_lists lists, GLOBAL const uint *body_color, uint plane, uint body)
+{
+  for (uint k = lists.joint_start[body]; k < lists.joint_start[body + 1u]; ++k) {
+    uint entry = lists.joint_entries[k], other = (entry & 1u) != 0u ? joint_a[entry >> 1u] : joint_b[entry >> 1u];
+    if (other != INDEX_NONE) add_neighbor(around, body_color, plane, body, other);
+  }
+}
+
+SHARED void body_color_round_item(GLOBAL const Parameters *parameters, GLOBAL const uint *constraint_a,
+                                  GLOBAL const uint *constraint_b, read_body_lists lists, GLOBAL const uint *joint_a,
+                                  GLOBAL const uint *joint_b, GLOBAL uint *counts, GLOBAL uint *body_color, uint round,
+                                  uint i)
 {
   uint now = round & 1u, color = body_color[2u * i + now];
   if (color == COLOR_NONE) {
-    neighbor_colors around =
-        colors_around(constraint_a, constraint_b, body_constraint_start, body_constraint, body_color, now, i);
+    neighbor_colors around = {0u, 0u, 0u};
+    add_neighbors_by_constraints(&around, constraint_a, constraint_b, lists, body_color, now, i);
+    if (HAS_FEATURE(parameters, JOINTS)) add_neighbors_by_joints(&around, joint_a, joint_b, lists, body_color, now, i);
     if (!around.waits) {
       color = lowest_free_color(around.low, around.high);
       ATOMIC_ADD(counts + COUNT_UNCOLORED, 0xffffffffu);

@@ -72,10 +72,10 @@ SHARED real response_along(joint_side s, vec3 direction, vec3 moment)
   return s.velocity.inverse_mass * dot3(pushes, direction) + dot3(moment, symmetric_times(s.inertia, moment));
 }
 
-SHARED axis_row row_of_axis(joint j, joint_frames f, uint_lanes kind)
+SHARED axis_row row_of_coordinate(joint j, joint_coordinate at)
 {
   axis_row r;
-  r.at = coordinate_of(j, f, kind);
+  r.at = at;
   r.moment_a = add(cross3(j.a.arm, r.at.direction), r.at.turn);
   r.moment_b = add(cross3(j.b.arm, r.at.direction), r.at.turn);
   real of_a = response_along(j.a, r.at.direction, r.moment_a), of_b = response_along(j.b, r.at.direction, r.moment_b);
@@ -86,6 +86,11 @@ SHARED axis_row row_of_axis(joint j, joint_frames f, uint_lanes kind)
   r.speed = dot3(r.at.direction, subtract(j.b.velocity.linear, j.a.velocity.linear)) +
             dot3(r.moment_b, j.b.velocity.angular) - dot3(r.moment_a, j.a.velocity.angular);
   return r;
+}
+
+SHARED axis_row row_of_axis(joint j, joint_frames f, uint_lanes kind)
+{
+  return row_of_coordinate(j, coordinate_of(j, f, kind));
 }
 
 /* The change of the impulse `old` of a spring. open: how far it is from its rest. */

@@ -10,6 +10,7 @@
 #include "shared/joints/prepare.h"
 #include "shared/joints/solve.h"
 #ifndef TANDEM_LANES /* ITEM kernels take one item at a time */
+#include "shared/joints/avbd.h"
 #include "shared/joints/by_world.h"
 #include "shared/joints/couplings_by_world.h"
 #include "shared/joints/driven.h"

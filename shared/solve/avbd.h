@@ -23,15 +23,8 @@
 #ifndef TANDEM_SHARED_SOLVE_AVBD_H
 #define TANDEM_SHARED_SOLVE_AVBD_H
 
+#include "shared/solve/avbd_penalties.h"
 #include "shared/solve/contact.h"
-
-#define AVBD_ALPHA R(0.95)        /* share of a penetration that is left in place */
-#define AVBD_GAMMA R(0.99)        /* what multipliers and penalties keep from one step to the next */
-#define AVBD_BETA R(30.0)         /* s/m, growth of a penalty in units of the effective mass */
-#define AVBD_FIRST_PENALTY R(1.0) /* of a new point, in units of the effective mass */
-#define AVBD_FREE_PENALTY R(2.0)  /* up to this a penalty grows freely */
-#define AVBD_GROWTH R(1.04)       /* beyond it, the largest growth in an iteration */
-#define AVBD_LAST_PENALTY R(1e4)
 
 /* Impulses and violations of one constraint at the present velocities. */
 typedef struct {
@@ -50,13 +43,6 @@ SHARED real point_violation(GLOBAL const Parameters *parameters, real separation
 {
   real recovered = maximum((R(1.0) - AVBD_ALPHA) * separation * parameters->inverse_substep, -parameters->push_speed);
   return choose(separation > R(0.0), separation * parameters->inverse_substep, recovered) + speed;
-}
-
-/* The share of a force of this size that a limit leaves. */
-SHARED real share_within(real size, real limit)
-{
-  mask beyond = size > limit;
-  return choose(beyond, limit / choose(beyond, size, (real)R(1.0)), (real)R(1.0));
 }
 
 SHARED void friction_forces(contact_forces *f, contact c, arm_shift shift, vec4 center_a, vec4 center_b, vec4 penalty,
@@ -110,23 +96,18 @@ SHARED contact_forces forces_of(GLOBAL const Parameters *parameters, read_patche
 }
 
 /* A body with constraints starts from its position without gravity, because most such bodies rest on another one. */
-SHARED void avbd_begin_item(GLOBAL const Parameters *parameters, GLOBAL const float4 *body_mass,
-                            GLOBAL const uint *body_constraint_start, GLOBAL float4 *solver_velocity,
-                            GLOBAL float4 *avbd_target, item_index i)
+SHARED void avbd_begin_item(GLOBAL const Parameters *parameters, GLOBAL const float4 *body_mass, read_body_lists lists,
+                            GLOBAL float4 *solver_velocity, GLOBAL float4 *avbd_target, item_index i)
 {
   spatial_velocity m = load_velocity(solver_velocity, i);
   store_velocity(avbd_target, i, m);
-  mask touched =
-      (load_uint(body_constraint_start, i) != load_uint(body_constraint_start, i + 1u)) & (m.inverse_mass > R(0.0));
+  mask touched = load_uint(lists.start, i) != load_uint(lists.start, i + 1u);
+  if (HAS_FEATURE(parameters, JOINTS))
+    touched = touched | (load_uint(lists.joint_start, i) != load_uint(lists.joint_start, i + 1u));
+  touched = touched & (m.inverse_mass > R(0.0));
   vec3 gravity = gravity_of(parameters);
   m.linear = add_scaled(m.linear, gravity, -(load_float4(body_mass, i).w * parameters->substep));
   store_velocity_if(touched, solver_velocity, i, m);
-}
-
-SHARED real kept_penalty(real mass, real old)
-{
-  return choose(mass > R(0.0), clamped(AVBD_GAMMA * old, AVBD_FIRST_PENALTY * mass, AVBD_LAST_PENALTY * mass),
-                (real)R(0.0));
 }
 
 /* The penalties of the same features in the last step; a pair that did not touch then has none. */
@@ -146,26 +127,21 @@ SHARED void avbd_prepare_item(GLOBAL const Parameters *parameters, GLOBAL const 
   vec4 old = load_float4(cached_penalty, from * 2u), old_friction = load_float4(cached_penalty, from * 2u + 1u);
   real penalty[4];
   for (uint k = 0; k < 4u; ++k)
-    penalty[k] = kept_penalty(load_point_mass(patches.points, planes, k, i),
-                              choose(is_cached, cached_impulse(feature, k, old_feature, old), (real)R(0.0)));
+    penalty[k] =
+        kept_penalty(load_point_mass(patches.points, planes, k, i),
+                     choose(is_cached, cached_impulse(feature, k, old_feature, old), (real)R(0.0)), AVBD_GAMMA);
   store_float4(duals.penalty, i * 2u, make_vec4(penalty[0], penalty[1], penalty[2], penalty[3]));
   store_float4(
       duals.penalty, i * 2u + 1u,
-      make_vec4(kept_penalty(load_float4(patches.center, i).w, choose(is_cached, old_friction.x, (real)R(0.0))),
-                kept_penalty(load_float4(patches.offset, i).w, choose(is_cached, old_friction.y, (real)R(0.0))), R(0.0),
-                R(0.0)));
+      make_vec4(
+          kept_penalty(load_float4(patches.center, i).w, choose(is_cached, old_friction.x, (real)R(0.0)), AVBD_GAMMA),
+          kept_penalty(load_float4(patches.offset, i).w, choose(is_cached, old_friction.y, (real)R(0.0)), AVBD_GAMMA),
+          R(0.0), R(0.0)));
   real kept = AVBD_ALPHA * AVBD_GAMMA;
   vec4 impulse = load_float4(duals.normal, i), friction = load_friction(parameters, duals.friction, i);
   store_float4(duals.normal, i, make_vec4(kept * impulse.x, kept * impulse.y, kept * impulse.z, kept * impulse.w));
   store_friction(parameters, duals.friction, i,
                  make_vec4(kept * friction.x, kept * friction.y, kept * friction.z, friction.w));
-}
-
-SHARED real grown_penalty(real penalty, real mass, real violation, mask holds)
-{
-  real limit = minimum(maximum(AVBD_GROWTH * penalty, AVBD_FREE_PENALTY * mass), AVBD_LAST_PENALTY * mass);
-  real grown = minimum(penalty + AVBD_BETA * mass * magnitude(violation), limit);
-  return choose(holds, grown, penalty);
 }
 
 SHARED void avbd_duals_item(GLOBAL const Parameters *parameters, read_contacts contacts, read_patches patches,

@@ -1,4 +1,5 @@
-/* avbd_bodies.h - augmented vertex block descent: one body against all its constraints; see avbd.h.
+/* avbd_bodies.h - augmented vertex block descent: one body against all its constraints and joints; see
+ * avbd.h and joints/avbd.h.
  *
  * The solver makes a Newton step on the six velocities of a body, in coordinates y = M^(1/2) (w - v*) with angles along
  * its principal axes:
@@ -11,6 +12,7 @@
 #ifndef TANDEM_SHARED_SOLVE_AVBD_BODIES_H
 #define TANDEM_SHARED_SOLVE_AVBD_BODIES_H
 
+#include "shared/joints/avbd.h"
 #include "shared/solve/avbd.h"
 
 /* The lower triangle, row by row, and the right-hand side. */
@@ -118,9 +120,74 @@ SHARED void add_contact(block_system *s, block_frame frame, GLOBAL const float4 
   add_turning_row(s, frame, c.normal, friction_penalty.y * f.twist_share, f.twist);
 }
 
+/* The rows of an axis have one Jacobian. */
+SHARED void add_joint_row(block_system *s, block_frame frame, const axis_row *at, avbd_row r)
+{
+  if (!(r.stiffness > R(0.0))) return;
+  vec3 moment = frame.side > R(0.0) ? at->moment_b : at->moment_a;
+  add_row(s, frame, at->at.direction, moment, r.stiffness, r.impulse);
+}
+
+SHARED void add_held_rows(block_system *s, block_frame frame, GLOBAL const Parameters *parameters,
+                          const avbd_joint *joint, const held_rows *rows, vec3 *push)
+{
+  for (uint k = 0; k < (HAS_FEATURE(parameters, JOINT_FRAMES) ? 6u : 3u); ++k) {
+    if (!holds_row(joint->j, k)) continue;
+    axis_row at = held_row_of(joint, k);
+    avbd_row r =
+        held_row(rows->multiplier[k], rows->penalty[k], (at.at.value - rows->left[k]) * parameters->inverse_substep);
+    add_joint_row(s, frame, &at, r);
+    *push = add_scaled(*push, at.at.direction, r.impulse);
+  }
+}
+
+SHARED void add_axes(block_system *s, block_frame frame, GLOBAL const Parameters *parameters, const avbd_joint *joint,
+                     read_joint_blocks blocks, vec3 *push, uint i)
+{
+  for (uint k = 0; k < parameters->joint_axes; ++k) {
+    if (load_uint(blocks.kind, joint_plane(parameters, k) + i) == (uint)JOINT_AXIS_NONE) continue;
+    avbd_axis rows = load_avbd_axis(parameters, joint, blocks, k, i);
+    add_joint_row(s, frame, &rows.at, rows.drive);
+    add_joint_row(s, frame, &rows.at, rows.limit);
+    add_joint_row(s, frame, &rows.at, rows.friction);
+    add_joint_row(s, frame, &rows.at, rows.speed);
+    *push = add_scaled(*push, rows.at.at.direction, rows.limit.impulse);
+    *push = add_scaled(*push, rows.at.at.direction, rows.drive.impulse);
+  }
+}
+
+/* The moment of a push at the end of an arm changes as the body turns by an angle d: d (push . arm) - arm (push . d).
+ * Of the symmetric part of this matrix, in the coordinates of the system, the sizes of the columns are added. */
+SHARED void add_turning_arm(block_system *s, block_frame frame, vec3 arm, vec3 push, real time)
+{
+  vec3 r = rotate_back(frame.axes, arm), p = scale(rotate_back(frame.axes, push), frame.side * time),
+       m = frame.root_moments;
+  real along = dot3(r, p), xy = R(-0.5) * (r.x * p.y + r.y * p.x) * m.x * m.y,
+       xz = R(-0.5) * (r.x * p.z + r.z * p.x) * m.x * m.z, yz = R(-0.5) * (r.y * p.z + r.z * p.y) * m.y * m.z;
+  real xx = (along - r.x * p.x) * m.x * m.x, yy = (along - r.y * p.y) * m.y * m.y, zz = (along - r.z * p.z) * m.z * m.z;
+  s->matrix[9] = s->matrix[9] + length_of(make_vec3(xx, xy, xz));
+  s->matrix[14] = s->matrix[14] + length_of(make_vec3(xy, yy, yz));
+  s->matrix[20] = s->matrix[20] + length_of(make_vec3(xz, yz, zz));
+}
+
+SHARED void add_joint(block_system *s, block_frame frame, GLOBAL const Parameters *parameters, read_joints joints,
+                      read_turning_bodies bodies, read_joint_blocks blocks, GLOBAL const float4 *solver_velocity,
+                      uint i)
+{
+  avbd_joint joint =
+      load_avbd_joint(parameters, joints, bodies, solver_velocity, load_float4(blocks.linear_left, i).w, i);
+  held_rows rows = load_held_rows(parameters, blocks, i);
+  vec3 push = make_vec3((real)parameters->zero, (real)parameters->zero, (real)parameters->zero);
+  add_held_rows(s, frame, parameters, &joint, &rows, &push);
+  if (HAS_FEATURE(parameters, JOINT_AXES)) add_axes(s, frame, parameters, &joint, blocks, &push, i);
+  add_turning_arm(s, frame, frame.side > R(0.0) ? joint.j.b.arm : joint.j.a.arm, push,
+                  joint.ahead * parameters->substep);
+}
+
 SHARED void avbd_body(GLOBAL const Parameters *parameters, read_blocks blocks, read_contacts contacts,
-                      read_patches patches, read_duals duals, read_body_constraint_lists body_constraint_lists,
-                      GLOBAL const uint *counts, GLOBAL float4 *solver_velocity, uint body)
+                      read_patches patches, read_duals duals, read_body_lists lists, read_joints joints,
+                      read_joint_blocks joint_blocks, GLOBAL const uint *counts, GLOBAL float4 *solver_velocity,
+                      uint body)
 {
   point_planes planes = planes_of(counts);
   spatial_velocity m = load_velocity(solver_velocity, body);
@@ -130,13 +197,21 @@ SHARED void avbd_body(GLOBAL const Parameters *parameters, read_blocks blocks, r
       make_vec3(square_root(inverse_moments.x), square_root(inverse_moments.y), square_root(inverse_moments.z)),
       square_root(m.inverse_mass), R(1.0)};
   block_system s = begin_block(frame, m, load_velocity(blocks.target, body), (real)parameters->zero);
-  for (uint k = body_constraint_lists.start[body]; k < body_constraint_lists.start[body + 1u]; ++k) {
-    uint entry = body_constraint_lists.entries[k], i = entry >> 1u;
+  for (uint k = lists.start[body]; k < lists.start[body + 1u]; ++k) {
+    uint entry = lists.entries[k], i = entry >> 1u;
     frame.side = (entry & 1u) != 0u ? R(1.0) : R(-1.0);
     contact c = load_contact(parameters, contacts, solver_velocity, blocks.inertia, i);
     add_contact(&s, frame, duals.normal, duals.penalty, c,
                 forces_of(parameters, patches, duals.normal, duals.friction, duals.penalty, blocks.delta, planes, c, i),
                 i);
+  }
+  if (HAS_FEATURE(parameters, JOINTS)) {
+    read_turning_bodies bodies = {blocks.inertia, blocks.delta, blocks.orientation};
+    for (uint k = lists.joint_start[body]; k < lists.joint_start[body + 1u]; ++k) {
+      uint entry = lists.joint_entries[k];
+      frame.side = (entry & 1u) != 0u ? R(1.0) : R(-1.0);
+      add_joint(&s, frame, parameters, joints, bodies, joint_blocks, solver_velocity, entry >> 1u);
+    }
   }
   solve_block(&s);
   m.linear = add_scaled(m.linear, make_vec3(s.vector[0], s.vector[1], s.vector[2]), frame.root_mass);
@@ -147,25 +222,25 @@ SHARED void avbd_body(GLOBAL const Parameters *parameters, read_blocks blocks, r
 
 /* Solves the bodies of one colour at once. */
 SHARED void avbd_bodies_item(GLOBAL const Parameters *parameters, read_blocks blocks, read_contacts contacts,
-                             read_patches patches, read_duals duals, read_body_constraint_lists body_constraint_lists,
-                             GLOBAL const uint *sort_value, GLOBAL const uint *counts, GLOBAL float4 *solver_velocity,
+                             read_patches patches, read_duals duals, read_body_lists lists, read_joints joints,
+                             read_joint_blocks joint_blocks, GLOBAL const uint *counts, GLOBAL float4 *solver_velocity,
                              uint i)
 {
-  avbd_body(parameters, blocks, contacts, patches, duals, body_constraint_lists, counts, solver_velocity,
-            sort_value[i]);
+  avbd_body(parameters, blocks, contacts, patches, duals, lists, joints, joint_blocks, counts, solver_velocity,
+            blocks.order[i]);
 }
 
 /* One item solves the bodies from this colour on in order: those of colours that the host did not launch, and those of
  * the overflow colour. Bodies of one colour share no constraint, so the result is that of launching each colour. */
 SHARED void avbd_rest_item(GLOBAL const Parameters *parameters, read_blocks blocks, read_contacts contacts,
-                           read_patches patches, read_duals duals, read_body_constraint_lists body_constraint_lists,
-                           GLOBAL const uint *sort_value, GLOBAL const uint *counts, GLOBAL float4 *solver_velocity,
+                           read_patches patches, read_duals duals, read_body_lists lists, read_joints joints,
+                           read_joint_blocks joint_blocks, GLOBAL const uint *counts, GLOBAL float4 *solver_velocity,
                            uint color, uint only)
 {
   (void)only;
   for (uint i = counts[BODY_COLOR_START + color]; i < counts[BODY_COLOR_START + COLOR_OVERFLOW + 1u]; ++i)
-    avbd_body(parameters, blocks, contacts, patches, duals, body_constraint_lists, counts, solver_velocity,
-              sort_value[i]);
+    avbd_body(parameters, blocks, contacts, patches, duals, lists, joints, joint_blocks, counts, solver_velocity,
+              blocks.order[i]);
 }
 
 #endif

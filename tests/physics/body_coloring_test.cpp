@@ -1,5 +1,5 @@
-/* Colours of bodies: no constraint joins two moving bodies of one colour, and each body has the lowest colour that its
- * neighbours of higher priority leave free, as one pass in order of priority finds it. */
+/* Colours of bodies: no constraint and no joint joins two moving bodies of one colour, and each body has the lowest
+ * colour that its neighbours of higher priority leave free, as one pass in order of priority finds it. */
 #include <numeric>
 #include <set>
 
@@ -35,12 +35,20 @@ Coloring coloring_of(World &world)
   Coloring coloring{std::vector<std::set<uint32_t>>(bodies), std::vector<bool>(bodies),
                     std::vector<uint32_t>(bodies, uncolored)};
   const auto moves = [&](uint32_t body) { return velocity[2 * body].w > 0; };
-  for (uint32_t i = 0; i < constraints; ++i) {
-    if (moves(a[i])) coloring.takes_part[a[i]] = true;
-    if (moves(b[i])) coloring.takes_part[b[i]] = true;
-    if (!moves(a[i]) || !moves(b[i])) continue;
-    coloring.neighbors[a[i]].insert(b[i]);
-    coloring.neighbors[b[i]].insert(a[i]);
+  const auto join = [&](uint32_t one, uint32_t other) {
+    const bool one_moves = one != INDEX_NONE && moves(one), other_moves = other != INDEX_NONE && moves(other);
+    if (one_moves) coloring.takes_part[one] = true;
+    if (other_moves) coloring.takes_part[other] = true;
+    if (!one_moves || !other_moves) return;
+    coloring.neighbors[one].insert(other);
+    coloring.neighbors[other].insert(one);
+  };
+  for (uint32_t i = 0; i < constraints; ++i) join(a[i], b[i]);
+  const uint32_t joints = world.scene().joints.empty() ? 0 : counts[COUNT_JOINTS];
+  if (joints > 0) {
+    const auto joint_a = memory.read<uint32_t>(Buffer::joint_a, joints),
+               joint_b = memory.read<uint32_t>(Buffer::joint_b, joints);
+    for (uint32_t i = 0; i < joints; ++i) join(joint_a[i], joint_b[i]);
   }
   for (uint32_t color = 0; color <= COLOR_OVERFLOW; ++color)
     for (uint32_t i = counts[BODY_COLOR_START + color]; i < counts[BODY_COLOR_START + color + 1]; ++i)
@@ -79,10 +87,11 @@ Scene slab_under_boxes(int side)
 
 } // namespace
 
-TEST_CASE("bodies of one colour share no constraint, and colours are those of a greedy pass", "[physics]")
+TEST_CASE("bodies of one colour share no constraint and no joint, and colours are those of a greedy pass", "[physics]")
 {
   const std::vector<Scene> scenes{load_scene("box-grid:nx=5,ny=5,nz=5"), load_scene("pyramid:rows=12"),
-                                  slab_under_boxes(12)};
+                                  slab_under_boxes(12), load_scene("joint-grid:columns=12,rows=9"),
+                                  load_scene("ragdolls:n=6,height=0")};
   for (const Scene &scene : scenes) {
     World world(scene, settings_for(Solver::avbd));
     world.set_observer([](const Launch &) {}); /* so that what it reads shares no memory */

@@ -232,7 +232,7 @@ Outcome run_as_documented(const Case &which, Length length, const Placement &pla
 
 bool refuses(const std::string &solver, const Trial &trial)
 {
-  return !trial.scene.joints.empty() && !solves_joints(settings_of(trial, solver).solver);
+  return !trial.scene.couplings.empty() && !solves_couplings(settings_of(trial, solver).solver);
 }
 
 namespace {
@@ -243,7 +243,7 @@ Outcome refused_outcome(const std::string &name, const Trial &trial, const std::
   outcome.name = name;
   outcome.solver = solver;
   outcome.settings = settings_text(settings_of(trial, solver));
-  fail(outcome, trial, "has no joints");
+  fail(outcome, trial, "has no couplings");
   outcome.refused = true;
   return outcome;
 }

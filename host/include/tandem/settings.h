@@ -118,8 +118,8 @@ inline double joint_hertz_of(const Settings &settings)
 /* The defaults with the substeps and iterations that suit this solver. */
 TANDEM_API Settings settings_for(Solver solver);
 
-/* Whether it solves joints and couplings; other solvers refuse a scene that has some. */
-TANDEM_API bool solves_joints(Solver solver);
+/* Whether it solves couplings; other solvers refuse a scene that has some. All solve joints. */
+TANDEM_API bool solves_couplings(Solver solver);
 
 /* Throws InputError if a number is out of range or a choice is none of its enum's values. */
 TANDEM_API void validate(const Settings &settings);

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "host/pipeline/body_constraints.h"
+#include "host/pipeline/solvers/joints.h"
 #include "host/pipeline/solvers/mass_split.h"
 #include "host/pipeline/solvers/solvers.h"
 
@@ -34,6 +35,29 @@ void launch_iteration(StepLaunches &step, uint32_t colors)
     step.run_range(Kernel::avbd_bodies, BODY_COLOR_START + color, BODY_COLOR_START + color + 1);
   step.run(Kernel::avbd_rest, {colors});
   step.run(Kernel::avbd_duals);
+  if (step.has(FEATURE_JOINTS)) step.run(Kernel::avbd_joint_duals);
+}
+
+void launch_avbd_substep(StepLaunches &step, uint32_t substep, uint32_t colors)
+{
+  step.begin_substep(substep);
+  warm_start_rolling(step);
+  step.run(Kernel::avbd_begin);
+  if (step.has(FEATURE_JOINTS)) step.run(Kernel::avbd_begin_joints);
+  for (uint32_t iteration = 0; iteration < step.settings().iterations; ++iteration) launch_iteration(step, colors);
+  step.move_bodies();
+  solve_rolling(step);
+  follow_joints(step, substep);
+}
+
+void bounce_at_end(StepLaunches &step)
+{
+  if (step.has(FEATURE_RESTITUTION)) {
+    MassSplit overflow = MassSplit::overflow_of(step);
+    overflow.prepare();
+    apply_restitution(step, overflow);
+  }
+  bounce_joints(step);
 }
 
 } // namespace
@@ -43,25 +67,18 @@ void launch_avbd(StepLaunches &step)
   list_body_constraints(step.launcher(), step.plan(), 0);
   color_bodies(step);
   step.run(Kernel::avbd_prepare);
+  if (step.has(FEATURE_JOINTS)) step.run(Kernel::avbd_prepare_joints);
+  begin_joints(step);
   const uint32_t colors = body_colors(step.plan());
-  for (uint32_t substep = 0; substep < step.settings().substeps; ++substep) {
-    step.begin_substep(substep);
-    warm_start_rolling(step);
-    step.run(Kernel::avbd_begin);
-    for (uint32_t iteration = 0; iteration < step.settings().iterations; ++iteration) launch_iteration(step, colors);
-    step.move_bodies();
-    solve_rolling(step);
-  }
-  if (!step.has(FEATURE_RESTITUTION)) return;
-  MassSplit overflow = MassSplit::overflow_of(step);
-  overflow.prepare();
-  apply_restitution(step, overflow);
+  for (uint32_t substep = 0; substep < step.settings().substeps; ++substep) launch_avbd_substep(step, substep, colors);
+  bounce_at_end(step);
 }
 
 void commit_avbd(StepLaunches &step)
 {
   step.run(Kernel::clear_cached, {2}, {Buffer::cached_penalty});
   step.run(Kernel::avbd_cache);
+  if (step.has(FEATURE_JOINTS)) step.run(Kernel::avbd_cache_joints);
 }
 
 } // namespace tandem

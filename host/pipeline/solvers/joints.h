@@ -1,13 +1,14 @@
 /* joints.h - launches of joints and couplings that solvers share; see shared/joints/solve.h.
  *
- * Their rows are those of shared/joints/, whatever the solver: a pass with bias closes what is open, and one without
- * takes the velocity of closing out again. Solvers differ in when they make these passes, and in what they do with the
- * impulses of the last step:
+ * Their rows are those of shared/joints/axes.h and solve.h in all solvers but avbd: a pass with bias closes what is
+ * open, and one without takes the velocity of closing out again. Solvers differ in when they make these passes, and in
+ * what they do with the impulses of the last step:
  *
  *   soft-step, pgs, nncg   a pass over joints in each pass over contacts, the joints of a colour before its contacts
  *   jacobi                 the same, but contacts come after all joints
  *   direct                 the passes of soft-step, and after them joints and contacts of small islands together
  *   xpbd                   from no impulses in each substep; what is open is closed whole, and then velocities
+ *   avbd                   none of them: its bodies are moved against the rows of shared/joints/avbd.h
  */
 #pragma once
 

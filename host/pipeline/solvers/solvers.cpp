@@ -40,10 +40,10 @@ Settings settings_for(Solver solver)
   return settings;
 }
 
-bool solves_joints(Solver solver)
+bool solves_couplings(Solver solver)
 {
   name_of(solver); /* InputError if there is no solver of this number */
-  return row_of(solver).joints;
+  return row_of(solver).couplings;
 }
 
 } // namespace tandem

@@ -17,7 +17,7 @@ struct SolverRow {
   Solver choice;
   const char *name, *what;
   uint32_t substeps, iterations; /* defaults */
-  bool joints;                   /* whether it solves them */
+  bool couplings;                /* whether it solves them */
   void (*launch)(StepLaunches &step);
   void (*commit)(StepLaunches &step) =
       nullptr; /* stores what the solver keeps for the next step, once the step has succeeded */

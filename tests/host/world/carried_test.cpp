@@ -35,6 +35,7 @@ const std::vector<Case> cases = {
     {"compounds:n=6", Solver::pgs, Broadphase::bvh},
     {TANDEM_SOURCE_DIR "/tests/scenes/rolling_balls.json", Solver::soft_step, Broadphase::hybrid},
     {"ragdolls:n=2,height=0", Solver::soft_step, Broadphase::grid},
+    {"ragdolls:n=2,height=0", Solver::avbd, Broadphase::grid},
     {"crane:rows=1,length=1", Solver::soft_step, Broadphase::grid},
     {"humanoid:n=1", Solver::soft_step, Broadphase::grid},
     {"spheres:n=12,height=0", Solver::jacobi, Broadphase::grid}};

@@ -22,17 +22,27 @@ Scene two_joined_and_one_free()
 
 } // namespace
 
-TEST_CASE("solvers without joints refuse them by name")
+TEST_CASE("every solver takes joints, and those without couplings refuse them by name")
 {
-  const Scene scene = two_joined_and_one_free();
+  Scene scene = two_joined_and_one_free();
   for (const Solver solver : choices<Solver>()) {
     CAPTURE(solver);
-    if (solves_joints(solver)) {
+    CHECK_NOTHROW(World(scene, settings_for(solver), {"serial", {}}).step());
+  }
+  for (Joint &joint : scene.joints) joint.type = JointType::hinge;
+  scene.couplings.resize(1);
+  scene.couplings[0].joint_b = 1;
+  scene.couplings[0].teeth_a = scene.couplings[0].teeth_b = 20;
+  for (const Solver solver : choices<Solver>()) {
+    CAPTURE(solver);
+    if (solves_couplings(solver)) {
       CHECK_NOTHROW(World(scene, settings_for(solver), {"serial", {}}).step());
       continue;
     }
     CHECK_THROWS_WITH(World(scene, settings_for(solver), {"serial", {}}),
-                      ContainsSubstring(std::string("the solver ") + name_of(solver) + " has no joints"));
+                      ContainsSubstring(std::string("the solver ") + name_of(solver) +
+                                        " has no couplings, of which the scene has 1; soft-step, pgs, nncg, xpbd, "
+                                        "jacobi, direct have them"));
   }
 }
 

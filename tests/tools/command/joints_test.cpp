@@ -34,12 +34,11 @@ TEST_CASE("command: joints that cannot be simulated are refused by one line", "[
     check_refused("run '" + file_with_joint(folder, joint) + "' --steps 1 --on serial", mentions);
 }
 
-TEST_CASE("command: what has no joints refuses them by one line", "[command]")
+TEST_CASE("command: what has no couplings refuses them by one line", "[command]")
 {
-  check_refused(
-      "run hinge-chain:n=3 --steps 1 --on serial --solver avbd",
-      "the solver avbd has no joints, of which the scene has 3; soft-step, pgs, nncg, xpbd, jacobi, direct have "
-      "them");
+  check_refused("run crane --steps 1 --on serial --solver avbd",
+                "the solver avbd has no couplings, of which the scene has 1; soft-step, pgs, nncg, xpbd, "
+                "jacobi, direct have them");
 }
 
 TEST_CASE("command: a run reports its joints, and devices agree on them", "[command]")

@@ -159,11 +159,11 @@ TEST_CASE("stability: a load opens a joint as its softness says", "[stability]")
   }
 }
 
-/* Solvers without joints are not run, do not count as failing, and say so; what is known elsewhere has a column. */
-TEST_CASE("stability: solvers without joints refuse the cases that have some", "[stability]")
+/* Solvers without couplings are not run, do not count as failing, and say so; what is known elsewhere has a column. */
+TEST_CASE("stability: solvers without couplings refuse the cases that have some", "[stability]")
 {
   Results results{"serial", {"soft-step", "avbd"}, Length::brief, {}};
-  const Case &which = case_named("rope-1800");
+  const Case &which = case_named("pulley-1000");
   for (const std::string &solver : results.solvers)
     results.add(which, which.build(Length::brief).scene, run_case(which, Length::brief, solver, {}),
                 results.results.size());
@@ -175,8 +175,13 @@ TEST_CASE("stability: solvers without joints refuse the cases that have some", "
   CHECK(text_of(counts_of(results, "avbd")).find(", 1 are refused") != std::string::npos);
   CHECK(results_json(results)["cases"][1]["pass"] == "refused");
   const std::string table = markdown_of(results, "tandem stability");
-  CHECK(table.find("| soft-step | avbd | elsewhere |\n|---|---|---|---|---|---|\n") != std::string::npos);
-  CHECK(table.find("| refused | " + which.elsewhere + " |") != std::string::npos);
+  CHECK(table.find("| refused |") != std::string::npos);
+  results.results.clear();
+  const Case &rope = case_named("rope-1800");
+  results.add(rope, rope.build(Length::brief).scene, run_case(rope, Length::brief, "soft-step", {}), 0);
+  const std::string known = markdown_of(results, "tandem stability");
+  CHECK(known.find(" | elsewhere |\n|---|---|---|---|---|---|\n") != std::string::npos);
+  CHECK(known.find("| " + rope.elsewhere + " |") != std::string::npos);
   results.results.clear();
   const Case &other = case_named("flip");
   results.add(other, other.build(Length::brief).scene, run_case(other, Length::brief, "avbd", {}), 0);

@@ -1,0 +1,492 @@
+/* avbd.h - joints in augmented vertex block descent (solve/avbd.h): rows with multipliers and penalties.
+ *
+ * Every direction and rotation that a joint holds is a row, and so is all that an axis limits, drives and brakes:
+ *
+ *   row                   c, m/s or rad/s                                impulse p
+ *   held                  (value - what is left open) / h                lambda - kappa c
+ *   limit                 the same, of the way to the limit              the same, on one side alone
+ *   motor, friction       speed - target                                 the same, within h times the largest force
+ *   largest speed         the speed beyond it                            the same, on one side alone
+ *   spring and damper     (h k open + d (speed - target)) / (h k + d)    -(h^2 k + h d) c
+ *
+ * Values are those at the end of the substep if both bodies keep their velocities, so rows follow any turn within it.
+ * As with contacts, a share of 1 - AVBD_ALPHA of what is open when the substep begins is closed in it; the rest is
+ * left. Joints last, so their multipliers do, too. A spring whose stiffness is above its penalty has a multiplier and
+ * the violation c + lambda / (h^2 k + h d), which is 0 where the spring's own law holds.
+ *
+ * Impulses act along the directions that rows have when the substep begins. With values at its end this is the scheme
+ * SHAKE (Ryckaert, Ciccotti and Berendsen, 1977), which keeps energy, and no impulse has an angular momentum. It is
+ * explicit in how a push turns with its body, and a light body on which a large force pulls swings too fast for it.
+ * There, and where bodies turn far, directions are those at a later share of the substep, `ahead`: from half on any
+ * force is stable, and swings are damped. The derivative of the directions is then a part of the body's system; the
+ * sizes of its columns are added to the diagonal, as in the paper.
+ */
+#ifndef TANDEM_SHARED_JOINTS_AVBD_H
+#define TANDEM_SHARED_JOINTS_AVBD_H
+
+#include "shared/joints/solve.h"
+#include "shared/solve/avbd_penalties.h"
+
+/* m/s, rad/s: a multiplier is at most what gives its mass this speed, so that rows that contradict each other pull with
+ * a force beside which floats still tell a centimetre a second. */
+#define AVBD_LAST_MULTIPLIER R(1e5)
+#define AVBD_JOINT_GAMMA R(0.95) /* what penalties keep from one substep to the next */
+#define AVBD_SLOW_SWING R(0.5)   /* rad^2 in a substep: up to this a swing is left to itself */
+#define AVBD_SMALL_TURN R(0.5)   /* rad in a substep: from this on directions are taken later, from twice at the end */
+
+/* A row at the present velocities. stiffness: of the impulse, kg or kg m^2; holds: nothing bounds its impulse. */
+typedef struct {
+  real impulse, stiffness, violation;
+  uint holds;
+} avbd_row;
+
+/* The rows of an axis, which share one Jacobian. */
+typedef struct {
+  axis_row at;
+  avbd_row drive, limit, friction, speed;
+} avbd_axis;
+
+/* Multipliers, penalties, and what is left open, of the rows of three directions and three rotations. */
+typedef struct {
+  real multiplier[6], penalty[6], left[6];
+} held_rows;
+
+/* A joint where the directions of its rows are taken, and at the end of the substep. */
+typedef struct {
+  joint j, end;
+  joint_frames f, end_f;
+  real ahead;
+} avbd_joint;
+
+SHARED joint_side side_after(joint_side s, vec4 local_arm, real time)
+{
+  s.orientation = turned(s.orientation, scale(s.velocity.angular, time));
+  s.translation = add_scaled(s.translation, s.velocity.linear, time);
+  s.arm = rotate(rotation_of(s.orientation), xyz(local_arm));
+  s.sharing = R(1.0);
+  return s;
+}
+
+/* A joint as it will be after some time with the present velocities. */
+SHARED joint load_joint_after(GLOBAL const Parameters *parameters, read_joints joints, read_turning_bodies bodies,
+                              GLOBAL const float4 *solver_velocity, real time, uint i)
+{
+  vec4 arm_a = load_float4(joints.arm_a, i), arm_b = load_float4(joints.arm_b, i);
+  joint_side a = load_side(parameters, bodies, solver_velocity, load_uint(joints.a, i), arm_a),
+             b = load_side(parameters, bodies, solver_velocity, load_uint(joints.b, i), arm_b);
+  return joint_between(side_after(a, arm_a, time), side_after(b, arm_b, time), load_uint(joints.modes, i),
+                       xyz(load_float4(joints.offset, i)));
+}
+
+SHARED avbd_joint load_avbd_joint(GLOBAL const Parameters *parameters, read_joints joints, read_turning_bodies bodies,
+                                  GLOBAL const float4 *solver_velocity, real ahead, uint i)
+{
+  avbd_joint joint;
+  real h = parameters->substep;
+  joint.ahead = ahead;
+  joint.j = load_joint_after(parameters, joints, bodies, solver_velocity, ahead * h, i);
+  joint.end = load_joint_after(parameters, joints, bodies, solver_velocity, h, i);
+  joint.f = frames_of(parameters, joint.j, joints, i);
+  joint.end_f = frames_of(parameters, joint.end, joints, i);
+  return joint;
+}
+
+SHARED void put_three(real *to, vec3 v)
+{
+  to[0] = v.x;
+  to[1] = v.y;
+  to[2] = v.z;
+}
+SHARED vec3 take_three(const real *from) { return make_vec3(from[0], from[1], from[2]); }
+SHARED real one_of_three(vec3 v, uint k) { return k == 0u ? v.x : k == 1u ? v.y : v.z; }
+
+SHARED held_rows load_held_rows(GLOBAL const Parameters *parameters, read_joint_blocks blocks, uint i)
+{
+  held_rows rows;
+  put_three(rows.multiplier, xyz(load_float4(blocks.linear, i)));
+  put_three(rows.penalty, xyz(load_float4(blocks.linear_penalty, i)));
+  put_three(rows.left, xyz(load_float4(blocks.linear_left, i)));
+  if (!HAS_FEATURE(parameters, JOINT_FRAMES)) return rows;
+  put_three(rows.multiplier + 3, xyz(load_float4(blocks.angular, i)));
+  put_three(rows.penalty + 3, xyz(load_float4(blocks.angular_penalty, i)));
+  put_three(rows.left + 3, xyz(load_float4(blocks.angular_left, i)));
+  return rows;
+}
+
+SHARED uint holds_row(joint j, uint k) { return (j.modes >> k) & 1u; }
+
+/* Axis k of the frame in which the directions of a joint are held: of the world if all three are. */
+SHARED vec3 held_direction(joint j, joint_frames f, uint k)
+{
+  if ((j.modes & (uint)JOINT_XYZ) == (uint)JOINT_XYZ)
+    return make_vec3(k == 0u ? R(1.0) : R(0.0), k == 1u ? R(1.0) : R(0.0), k == 2u ? R(1.0) : R(0.0));
+  return k == 0u ? axis_x(f.axes) : k == 1u ? axis_y(f.axes) : axis_z(f.axes);
+}
+
+/* Coordinate k of what a joint holds: directions, then rotations. */
+SHARED joint_coordinate held_coordinate(joint j, joint_frames f, uint k)
+{
+  vec3 none = make_vec3(R(0.0), R(0.0), R(0.0));
+  joint_coordinate at = {R(0.0), none, none};
+  if (k < 3u) {
+    at.direction = held_direction(j, f, k);
+    at.value = dot3(at.direction, j.gap);
+  } else {
+    at.turn = k == 3u ? axis_x(f.axes) : k == 4u ? axis_y(f.axes) : axis_z(f.axes);
+    at.value = one_of_three(turn_between(f.relative, j.modes >> (uint)JOINT_ANGULAR_SHIFT), k - 3u);
+  }
+  return at;
+}
+
+SHARED axis_row held_row_of(const avbd_joint *joint, uint k)
+{
+  axis_row r = row_of_coordinate(joint->j, held_coordinate(joint->j, joint->f, k));
+  r.at.value = held_coordinate(joint->end, joint->end_f, k).value;
+  return r;
+}
+
+/* What a substep leaves of a value that should be 0. */
+SHARED real left_open(GLOBAL const Parameters *parameters, real open)
+{
+  real most = JOINT_CLOSING * parameters->substep;
+  return open - clamped((R(1.0) - AVBD_ALPHA) * open, -most, most);
+}
+
+SHARED avbd_row no_row(void)
+{
+  avbd_row r = {R(0.0), R(0.0), R(0.0), 0u};
+  return r;
+}
+
+SHARED avbd_row held_row(real multiplier, real penalty, real violation)
+{
+  avbd_row r = {multiplier - penalty * violation, penalty, violation, 1u};
+  return r;
+}
+
+/* The stiffness of a bounded row is the force that it still bears over its violation. */
+SHARED avbd_row bounded_row(avbd_row r, real limit)
+{
+  real share = share_within(magnitude(r.impulse), limit);
+  r.impulse = r.impulse * share;
+  r.stiffness = r.stiffness * share;
+  r.holds = r.holds != 0u && share == R(1.0) ? 1u : 0u;
+  return r;
+}
+
+/* A row that pushes up where `below` is negative, and down where `above` is. A row that has just let go may press
+ * again, so it stays stiff. */
+SHARED avbd_row range_row(real multiplier, real penalty, real below, real above)
+{
+  real up = maximum(maximum(multiplier, R(0.0)) - penalty * below, R(0.0)),
+       down = maximum(maximum(-multiplier, R(0.0)) - penalty * above, R(0.0));
+  avbd_row r = no_row();
+  r.impulse = up - down;
+  r.violation = up > R(0.0) ? below : above;
+  r.holds = r.impulse != R(0.0) ? 1u : 0u;
+  if (r.holds != 0u || multiplier != R(0.0)) r.stiffness = penalty;
+  return r;
+}
+
+/* open: how far it is from its rest. */
+SHARED avbd_row spring_row(GLOBAL const Parameters *parameters, real multiplier, real penalty, real stiffness,
+                           real damping, real open, real speed)
+{
+  real h = parameters->substep, of_way = h * h * stiffness, of_speed = h * damping, full = of_way + of_speed;
+  if (!(full > R(0.0))) return no_row();
+  real push = of_way * (open * parameters->inverse_substep) + of_speed * speed;
+  if (full > penalty) return held_row(multiplier, penalty, (push + multiplier) / full);
+  avbd_row r = {-push, full, R(0.0), 1u};
+  return r;
+}
+
+SHARED avbd_row drive_row(GLOBAL const Parameters *parameters, const axis_row *r, const joint_axis *axis,
+                          real multiplier, real penalty)
+{
+  real limit = axis->largest_force * parameters->substep;
+  if (!(limit > R(0.0))) return no_row();
+  if (axis->damping < R(0.0)) {
+    real target = clamped(axis->target_speed, -axis->largest_speed, axis->largest_speed);
+    return bounded_row(held_row(multiplier, penalty, r->speed - target), limit);
+  }
+  real open = distance_from(r->at.value, axis->target, is_rotation(axis->kind)), speed = r->speed - axis->target_speed;
+  return bounded_row(spring_row(parameters, multiplier, penalty, axis->stiffness, axis->damping, open, speed), limit);
+}
+
+SHARED avbd_row friction_row(GLOBAL const Parameters *parameters, const axis_row *r, real friction, real multiplier,
+                             real penalty)
+{
+  if (!(friction > R(0.0))) return no_row();
+  return bounded_row(held_row(multiplier, penalty, r->speed), friction * parameters->substep);
+}
+
+/* A soft stop from below. One that is reached within the substep gives no more than it takes to arrive there. */
+SHARED avbd_row soft_stop_row(GLOBAL const Parameters *parameters, real multiplier, real penalty,
+                              const joint_axis *axis, real open, real speed, uint arrives)
+{
+  if (open >= R(0.0)) return no_row();
+  avbd_row r = spring_row(parameters, multiplier, penalty, axis->limit_stiffness, axis->limit_damping, open, speed);
+  avbd_row hard = held_row(R(0.0), AVBD_LAST_PENALTY * r.stiffness, open * parameters->inverse_substep);
+  if (arrives != 0u && hard.impulse < r.impulse) return hard;
+  return r.impulse > R(0.0) ? r : no_row();
+}
+
+/* left: how far beyond its limits the coordinate may stay, negative below. */
+SHARED avbd_row limit_row(GLOBAL const Parameters *parameters, const axis_row *r, const joint_axis *axis, real left,
+                          real multiplier, real penalty)
+{
+  if (!has_limits(axis, R(0.0))) return no_row();
+  real value = value_near_range(r, axis), from_lower = value - axis->lower, to_upper = axis->upper - value;
+  uint held = axis->lower == axis->upper, soft = axis->limit_stiffness > R(0.0);
+  if (soft && held)
+    return spring_row(parameters, multiplier, penalty, axis->limit_stiffness, axis->limit_damping, from_lower,
+                      r->speed);
+  if (soft) {
+    avbd_row up = soft_stop_row(parameters, multiplier, penalty, axis, from_lower, r->speed, left >= R(0.0)),
+             down = soft_stop_row(parameters, -multiplier, penalty, axis, to_upper, -r->speed, left <= R(0.0));
+    down.impulse = -down.impulse;
+    return up.stiffness > R(0.0) ? up : down;
+  }
+  if (held) return held_row(multiplier, penalty, (from_lower - left) * parameters->inverse_substep);
+  return range_row(multiplier, penalty, (from_lower - minimum(left, R(0.0))) * parameters->inverse_substep,
+                   (to_upper + maximum(left, R(0.0))) * parameters->inverse_substep);
+}
+
+SHARED avbd_axis avbd_axis_of(GLOBAL const Parameters *parameters, const avbd_joint *joint, const joint_axis *axis,
+                              vec4 multiplier, vec4 penalty, real left)
+{
+  avbd_axis rows;
+  rows.at = row_of_axis(joint->j, joint->f, axis->kind);
+  rows.at.at.value = coordinate_of(joint->end, joint->end_f, axis->kind).value;
+  rows.drive = drive_row(parameters, &rows.at, axis, multiplier.x, penalty.x);
+  rows.limit = limit_row(parameters, &rows.at, axis, left, multiplier.y, penalty.y);
+  rows.friction = friction_row(parameters, &rows.at, axis->friction, multiplier.z, penalty.z);
+  rows.speed = no_row();
+  real most = axis->largest_speed;
+  if (most < UNLIMITED) rows.speed = range_row(multiplier.w, penalty.w, rows.at.speed + most, most - rows.at.speed);
+  return rows;
+}
+
+SHARED avbd_axis load_avbd_axis(GLOBAL const Parameters *parameters, const avbd_joint *joint, read_joint_blocks blocks,
+                                uint k, uint i)
+{
+  read_joint_axes axes = {blocks.kind, blocks.row};
+  joint_axis axis = load_axis(parameters, axes, k, i);
+  uint at = joint_plane(parameters, k) + i;
+  return avbd_axis_of(parameters, joint, &axis, load_float4(blocks.axis, at), load_float4(blocks.axis_penalty, at),
+                      load_real(blocks.axis_left, at));
+}
+
+/* --- a step begins: the penalties of the last one --- */
+
+SHARED void prepare_held_rows(joint j, joint_frames f, uint first, vec4 old, GLOBAL float4 *penalty, uint i)
+{
+  real kept[3], before[3];
+  put_three(before, xyz(old));
+  for (uint k = 0; k < 3u; ++k) {
+    kept[k] = R(0.0);
+    if (holds_row(j, first + k))
+      kept[k] = kept_penalty(row_of_coordinate(j, held_coordinate(j, f, first + k)).mass, before[k], R(1.0));
+  }
+  store_float4(penalty, i, extend(take_three(kept), R(0.0)));
+}
+
+SHARED void prepare_avbd_axes(GLOBAL const Parameters *parameters, joint j, joint_frames f, read_joint_axes axes,
+                              GLOBAL const float4 *cached, GLOBAL float4 *penalty, uint i)
+{
+  for (uint k = 0; k < parameters->joint_axes; ++k) {
+    uint at = joint_plane(parameters, k) + i, kind = load_uint(axes.kind, at);
+    real mass = kind != (uint)JOINT_AXIS_NONE ? row_of_axis(j, f, kind).mass : R(0.0);
+    vec4 old = load_float4(cached, at);
+    store_float4(penalty, at,
+                 make_vec4(kept_penalty(mass, old.x, R(1.0)), kept_penalty(mass, old.y, R(1.0)),
+                           kept_penalty(mass, old.z, R(1.0)), kept_penalty(mass, old.w, R(1.0))));
+  }
+}
+
+SHARED void avbd_prepare_joints_item(GLOBAL const Parameters *parameters, read_joints joints,
+                                     read_turning_bodies bodies, read_joint_axes axes,
+                                     read_cached_joint_penalties cached, GLOBAL const float4 *solver_velocity,
+                                     write_joint_penalties penalties, uint i)
+{
+  joint j = load_joint_after(parameters, joints, bodies, solver_velocity, R(0.0), i);
+  joint_frames f = frames_of(parameters, j, joints, i);
+  prepare_held_rows(j, f, 0u, load_float4(cached.linear, i), penalties.linear, i);
+  if (HAS_FEATURE(parameters, JOINT_FRAMES))
+    prepare_held_rows(j, f, 3u, load_float4(cached.angular, i), penalties.angular, i);
+  if (HAS_FEATURE(parameters, JOINT_AXES)) prepare_avbd_axes(parameters, j, f, axes, cached.axis, penalties.axis, i);
+}
+
+/* --- a substep begins --- */
+
+/* Stiff joints move as one, but share their momentum slowly, so a penalty that is not needed any more goes down. */
+SHARED void lower_penalties(GLOBAL float4 *penalty, uint at)
+{
+  vec4 p = load_float4(penalty, at);
+  store_float4(
+      penalty, at,
+      make_vec4(AVBD_JOINT_GAMMA * p.x, AVBD_JOINT_GAMMA * p.y, AVBD_JOINT_GAMMA * p.z, AVBD_JOINT_GAMMA * p.w));
+}
+
+/* The square of the angle by which a push of this size makes a side swing in a second, about, over its time. */
+SHARED real swing_of_side(joint_side s, real push)
+{
+  real turns = R(0.333333) * ((s.inertia.xx + s.inertia.yy) + s.inertia.zz), arm = length_of(s.arm);
+  if (!(turns > R(0.0))) return R(0.0);
+  return push * (arm * turns + s.velocity.inverse_mass / square_root(arm * arm + s.velocity.inverse_mass / turns));
+}
+
+SHARED real share_ahead(GLOBAL const Parameters *parameters, joint j, real push)
+{
+  real h = parameters->substep, swing = h * (swing_of_side(j.a, push) + swing_of_side(j.b, push));
+  real angle = h * maximum(length_of(j.a.velocity.angular), length_of(j.b.velocity.angular));
+  real share = swing > AVBD_SLOW_SWING ? R(0.5) * (R(1.0) - AVBD_SLOW_SWING / swing) : R(0.0);
+  return maximum(share, clamped((angle - AVBD_SMALL_TURN) / AVBD_SMALL_TURN, R(0.0), R(1.0)));
+}
+
+/* What is left open of three rows. */
+SHARED vec3 open_rows(GLOBAL const Parameters *parameters, joint j, joint_frames f, uint first)
+{
+  real open[3];
+  for (uint k = 0; k < 3u; ++k)
+    open[k] = holds_row(j, first + k) ? left_open(parameters, held_coordinate(j, f, first + k).value) : R(0.0);
+  return take_three(open);
+}
+
+/* How far an axis is beyond its limits. */
+SHARED real beyond_limits(joint j, joint_frames f, const joint_axis *axis)
+{
+  if (axis->kind == (uint)JOINT_AXIS_NONE || !has_limits(axis, R(0.0))) return R(0.0);
+  axis_row r = row_of_axis(j, f, axis->kind);
+  real value = value_near_range(&r, axis);
+  return value - clamped(value, axis->lower, axis->upper);
+}
+
+/* What axes leave open; the sum of the pushes that they had. */
+SHARED real begin_avbd_axes(GLOBAL const Parameters *parameters, joint j, joint_frames f, read_joint_axes axes,
+                            write_joint_duals duals, uint i)
+{
+  real pushes = R(0.0);
+  for (uint k = 0; k < parameters->joint_axes; ++k) {
+    uint at = joint_plane(parameters, k) + i;
+    joint_axis axis = load_axis(parameters, axes, k, i);
+    vec4 multiplier = load_float4(duals.axis, at);
+    lower_penalties(duals.axis_penalty, at);
+    if (axis.kind <= (uint)JOINT_AXIS_Z || axis.kind == (uint)JOINT_AXIS_DISTANCE)
+      pushes = pushes + (magnitude(multiplier.x) + magnitude(multiplier.y));
+    store_real(duals.axis_left, at, left_open(parameters, beyond_limits(j, f, &axis)));
+  }
+  return pushes;
+}
+
+SHARED void avbd_begin_joints_item(GLOBAL const Parameters *parameters, read_joints joints, read_turning_bodies bodies,
+                                   read_joint_axes axes, GLOBAL const float4 *solver_velocity, write_joint_duals duals,
+                                   uint i)
+{
+  joint j = load_joint_after(parameters, joints, bodies, solver_velocity, R(0.0), i);
+  joint_frames f = frames_of(parameters, j, joints, i);
+  real push = length_of(xyz(load_float4(duals.linear, i)));
+  lower_penalties(duals.linear_penalty, i);
+  if (HAS_FEATURE(parameters, JOINT_FRAMES)) lower_penalties(duals.angular_penalty, i);
+  if (HAS_FEATURE(parameters, JOINT_AXES)) push = push + begin_avbd_axes(parameters, j, f, axes, duals, i);
+  store_float4(duals.linear_left, i, extend(open_rows(parameters, j, f, 0u), share_ahead(parameters, j, push)));
+  if (HAS_FEATURE(parameters, JOINT_FRAMES))
+    store_float4(duals.angular_left, i, extend(open_rows(parameters, j, f, 3u), R(0.0)));
+}
+
+/* --- an iteration ends: multipliers take the impulses, and penalties grow --- */
+
+SHARED real kept_multiplier(avbd_row r, real mass)
+{
+  return clamped(r.impulse, -AVBD_LAST_MULTIPLIER * mass, AVBD_LAST_MULTIPLIER * mass);
+}
+
+SHARED real grown_row(avbd_row r, real penalty, real mass)
+{
+  return grown_penalty(penalty, mass, r.violation, r.holds != 0u);
+}
+
+SHARED void grow_held_rows(GLOBAL const Parameters *parameters, const avbd_joint *joint, held_rows *rows)
+{
+  for (uint k = 0; k < (HAS_FEATURE(parameters, JOINT_FRAMES) ? 6u : 3u); ++k) {
+    if (!holds_row(joint->j, k)) continue;
+    axis_row at = held_row_of(joint, k);
+    avbd_row r =
+        held_row(rows->multiplier[k], rows->penalty[k], (at.at.value - rows->left[k]) * parameters->inverse_substep);
+    rows->multiplier[k] = kept_multiplier(r, at.mass);
+    rows->penalty[k] = grown_row(r, rows->penalty[k], at.mass);
+  }
+}
+
+/* A drive that a limit stops would push harder in every iteration. */
+SHARED uint presses_limit(const avbd_axis *rows, real multiplier)
+{
+  return rows->drive.impulse * rows->limit.impulse < R(0.0) && magnitude(rows->drive.impulse) > magnitude(multiplier);
+}
+SHARED avbd_row held_as(real multiplier)
+{
+  avbd_row r = {multiplier, R(0.0), R(0.0), 0u};
+  return r;
+}
+
+SHARED void grow_axes(GLOBAL const Parameters *parameters, const avbd_joint *joint, read_joint_blocks blocks,
+                      write_joint_duals duals, uint i)
+{
+  for (uint k = 0; k < parameters->joint_axes; ++k) {
+    uint at = joint_plane(parameters, k) + i;
+    if (load_uint(blocks.kind, at) == (uint)JOINT_AXIS_NONE) continue;
+    avbd_axis rows = load_avbd_axis(parameters, joint, blocks, k, i);
+    vec4 penalty = load_float4(blocks.axis_penalty, at);
+    real mass = rows.at.mass;
+    if (presses_limit(&rows, load_float4(blocks.axis, at).x)) rows.drive = held_as(load_float4(blocks.axis, at).x);
+    store_float4(duals.axis, at,
+                 make_vec4(kept_multiplier(rows.drive, mass), kept_multiplier(rows.limit, mass),
+                           kept_multiplier(rows.friction, mass), kept_multiplier(rows.speed, mass)));
+    store_float4(duals.axis_penalty, at,
+                 make_vec4(grown_row(rows.drive, penalty.x, mass), grown_row(rows.limit, penalty.y, mass),
+                           grown_row(rows.friction, penalty.z, mass), grown_row(rows.speed, penalty.w, mass)));
+  }
+}
+
+SHARED void avbd_joint_duals_item(GLOBAL const Parameters *parameters, read_joints joints, read_turning_bodies bodies,
+                                  read_joint_axes axes, GLOBAL const float4 *solver_velocity, write_joint_duals duals,
+                                  uint i)
+{
+  read_joint_blocks blocks = {axes.kind,
+                              axes.row,
+                              duals.linear,
+                              duals.angular,
+                              duals.axis,
+                              duals.linear_penalty,
+                              duals.angular_penalty,
+                              duals.axis_penalty,
+                              duals.linear_left,
+                              duals.angular_left,
+                              duals.axis_left};
+  avbd_joint joint =
+      load_avbd_joint(parameters, joints, bodies, solver_velocity, load_float4(duals.linear_left, i).w, i);
+  held_rows rows = load_held_rows(parameters, blocks, i);
+  grow_held_rows(parameters, &joint, &rows);
+  store_float4(duals.linear, i, extend(take_three(rows.multiplier), R(0.0)));
+  store_float4(duals.linear_penalty, i, extend(take_three(rows.penalty), R(0.0)));
+  if (HAS_FEATURE(parameters, JOINT_FRAMES)) {
+    store_float4(duals.angular, i, extend(take_three(rows.multiplier + 3), R(0.0)));
+    store_float4(duals.angular_penalty, i, extend(take_three(rows.penalty + 3), R(0.0)));
+  }
+  if (HAS_FEATURE(parameters, JOINT_AXES)) grow_axes(parameters, &joint, blocks, duals, i);
+}
+
+/* --- a step has succeeded --- */
+
+SHARED void avbd_cache_joints_item(GLOBAL const Parameters *parameters, read_joint_penalties penalties,
+                                   write_cached_joint_penalties cached, uint i)
+{
+  store_float4(cached.linear, i, load_float4(penalties.linear, i));
+  if (HAS_FEATURE(parameters, JOINT_FRAMES)) store_float4(cached.angular, i, load_float4(penalties.angular, i));
+  if (!HAS_FEATURE(parameters, JOINT_AXES)) return;
+  for (uint k = 0; k < parameters->joint_axes; ++k)
+    store_float4(cached.axis, joint_plane(parameters, k) + i,
+                 load_float4(penalties.axis, joint_plane(parameters, k) + i));
+}
+
+#endif
