@@ -169,6 +169,33 @@ TEST_CASE("solvers with joints: limits stop a body from both sides, at any speed
   CHECK(back == Approx(bounces ? restitution * speed : 0).margin(0.02));
 }
 
+TEST_CASE("solvers with joints: a soft limit gives way by its stiffness, from both sides", "[physics]")
+{
+  const Settings settings = each_solver();
+  const double sign = GENERATE(-1.0, 1.0), stiffness = GENERATE(500.0, 1e6);
+  HeldCube held(JointType::slider, {float(10 * sign), 0, 0});
+  held.direction() = {
+      .lower = -0.2f, .upper = 0.2f, .limit_stiffness = float(stiffness), .limit_damping = float(0.1 * stiffness)};
+  World world(held.scene, settings, in_order);
+  run(world, 300);
+  CHECK(way_of(world) == Approx(sign * (0.2 + 10 / stiffness)).margin(1e-4));
+  CHECK(std::abs(speed_along_x(world)) < 1e-4);
+}
+
+TEST_CASE("solvers with joints: a slider is no faster than its largest speed", "[physics]")
+{
+  HeldCube held(JointType::slider, {10, 0, 0});
+  held.direction() = {.max_speed = 2};
+  World world(held.scene, each_solver(), in_order);
+  double fastest = 0;
+  for (int k = 0; k < 60; ++k) {
+    world.step();
+    fastest = std::max(fastest, speed_along_x(world));
+  }
+  CHECK(fastest < 2.01);
+  CHECK(speed_along_x(world) == Approx(2).epsilon(1e-3));
+}
+
 TEST_CASE("solvers with joints: the forces of a chain are the weights below", "[physics]")
 {
   World world(hanging_chain(5), each_solver(), in_order);
