@@ -17,9 +17,10 @@
  * Impulses act along the directions that rows have when the substep begins. With values at its end this is the scheme
  * SHAKE (Ryckaert, Ciccotti and Berendsen, 1977), which keeps energy, and no impulse has an angular momentum. It is
  * explicit in how a push turns with its body, and a light body on which a large force pulls swings too fast for it.
- * There, and where bodies turn far, directions are those at a later share of the substep, `ahead`: from half on any
- * force is stable, and swings are damped. The derivative of the directions is then a part of the body's system; the
- * sizes of its columns are added to the diagonal, as in the paper.
+ * There, directions are those at a later share of the substep, `ahead`: from half on any force is stable, and swings
+ * are damped. The derivative of the directions is then a part of the body's system; the sizes of its columns are added
+ * to the diagonal, as in the paper. Rows of bodies that turn far in a substep are `straight`: their values follow the
+ * velocities as they are, because a descent along rows that turn by half a radian does not converge.
  */
 #ifndef TANDEM_SHARED_JOINTS_AVBD_H
 #define TANDEM_SHARED_JOINTS_AVBD_H
@@ -30,9 +31,9 @@
 /* m/s, rad/s: a multiplier is at most what gives its mass this speed, so that rows that contradict each other pull with
  * a force beside which floats still tell a centimetre a second. */
 #define AVBD_LAST_MULTIPLIER R(1e5)
-#define AVBD_JOINT_GAMMA R(0.95) /* what penalties keep from one substep to the next */
+#define AVBD_JOINT_GAMMA R(0.93) /* what penalties keep from one substep to the next */
 #define AVBD_SLOW_SWING R(0.5)   /* rad^2 in a substep: up to this a swing is left to itself */
-#define AVBD_SMALL_TURN R(0.5)   /* rad in a substep: from this on directions are taken later, from twice at the end */
+#define AVBD_SMALL_TURN R(0.25)  /* rad in a substep: from twice this on, rows are straight */
 
 /* A row at the present velocities. stiffness: of the impulse, kg or kg m^2; holds: nothing bounds its impulse. */
 typedef struct {
@@ -51,11 +52,12 @@ typedef struct {
   real multiplier[6], penalty[6], left[6];
 } held_rows;
 
-/* A joint where the directions of its rows are taken, and at the end of the substep. */
+/* A joint where the directions of its rows are taken, and at the end of the substep. straight: the share of values that
+ * follow the velocities; time: that of the substep. */
 typedef struct {
   joint j, end;
   joint_frames f, end_f;
-  real ahead;
+  real ahead, straight, time;
 } avbd_joint;
 
 SHARED joint_side side_after(joint_side s, vec4 local_arm, real time)
@@ -83,12 +85,22 @@ SHARED avbd_joint load_avbd_joint(GLOBAL const Parameters *parameters, read_join
 {
   avbd_joint joint;
   real h = parameters->substep;
-  joint.ahead = ahead;
-  joint.j = load_joint_after(parameters, joints, bodies, solver_velocity, ahead * h, i);
+  joint.j = load_joint_after(parameters, joints, bodies, solver_velocity, R(0.0), i);
+  real angle = h * maximum(length_of(joint.j.a.velocity.angular), length_of(joint.j.b.velocity.angular));
+  joint.straight = clamped((angle - AVBD_SMALL_TURN) / AVBD_SMALL_TURN, R(0.0), R(1.0));
+  joint.ahead = joint.straight > R(0.0) ? R(0.0) : ahead;
+  if (joint.ahead > R(0.0)) joint.j = load_joint_after(parameters, joints, bodies, solver_velocity, joint.ahead * h, i);
   joint.end = load_joint_after(parameters, joints, bodies, solver_velocity, h, i);
   joint.f = frames_of(parameters, joint.j, joints, i);
   joint.end_f = frames_of(parameters, joint.end, joints, i);
+  joint.time = h;
   return joint;
+}
+
+/* The value of a row at the end. That of bodies which turn far is where they would be without turning further. */
+SHARED real value_at_end(const avbd_joint *joint, const axis_row *r, real end)
+{
+  return end + joint->straight * ((r->at.value + joint->time * r->speed) - end);
 }
 
 SHARED void put_three(real *to, vec3 v)
@@ -141,7 +153,7 @@ SHARED joint_coordinate held_coordinate(joint j, joint_frames f, uint k)
 SHARED axis_row held_row_of(const avbd_joint *joint, uint k)
 {
   axis_row r = row_of_coordinate(joint->j, held_coordinate(joint->j, joint->f, k));
-  r.at.value = held_coordinate(joint->end, joint->end_f, k).value;
+  r.at.value = value_at_end(joint, &r, held_coordinate(joint->end, joint->end_f, k).value);
   return r;
 }
 
@@ -257,7 +269,7 @@ SHARED avbd_axis avbd_axis_of(GLOBAL const Parameters *parameters, const avbd_jo
 {
   avbd_axis rows;
   rows.at = row_of_axis(joint->j, joint->f, axis->kind);
-  rows.at.at.value = coordinate_of(joint->end, joint->end_f, axis->kind).value;
+  rows.at.at.value = value_at_end(joint, &rows.at, coordinate_of(joint->end, joint->end_f, axis->kind).value);
   rows.drive = drive_row(parameters, &rows.at, axis, multiplier.x, penalty.x);
   rows.limit = limit_row(parameters, &rows.at, axis, left, multiplier.y, penalty.y);
   rows.friction = friction_row(parameters, &rows.at, axis->friction, multiplier.z, penalty.z);
@@ -338,10 +350,8 @@ SHARED real swing_of_side(joint_side s, real push)
 
 SHARED real share_ahead(GLOBAL const Parameters *parameters, joint j, real push)
 {
-  real h = parameters->substep, swing = h * (swing_of_side(j.a, push) + swing_of_side(j.b, push));
-  real angle = h * maximum(length_of(j.a.velocity.angular), length_of(j.b.velocity.angular));
-  real share = swing > AVBD_SLOW_SWING ? R(0.5) * (R(1.0) - AVBD_SLOW_SWING / swing) : R(0.0);
-  return maximum(share, clamped((angle - AVBD_SMALL_TURN) / AVBD_SMALL_TURN, R(0.0), R(1.0)));
+  real swing = parameters->substep * (swing_of_side(j.a, push) + swing_of_side(j.b, push));
+  return swing > AVBD_SLOW_SWING ? R(0.5) * (R(1.0) - AVBD_SLOW_SWING / swing) : R(0.0);
 }
 
 /* What is left open of three rows. */
