@@ -55,6 +55,12 @@ namespace tandem {
 
 struct SnapshotContents;
 
+/* Bodies as a call changes them. */
+struct ChangedBodies {
+  std::vector<uint32_t> slots; /* ascending */
+  std::vector<Body> bodies;
+};
+
 /* A body's index shares a word with the stage in which the body failed (COUNT_NONFINITE). */
 constexpr uint32_t body_numbers = 1u << 28;
 
@@ -245,6 +251,8 @@ struct World::Implementation {
 
   /* --- properties that change: properties.cpp -------------------------------------------------------------------- */
   void set_properties(std::span<const BodyId> ids, std::span<const BodyProperties> properties);
+  void check_properties(std::span<const BodyId> ids, std::span<const BodyProperties> properties);
+  ChangedBodies changed_by(std::span<const BodyId> ids, std::span<const BodyProperties> properties);
   void refuse_unbuilt(std::span<const uint32_t> slots, std::span<const Body> changed_bodies);
   void refuse_for_links(std::span<const uint32_t> changed, std::span<const Body> changed_bodies);
   void refuse_idle_joints(std::span<const uint32_t> joints, std::span<const uint32_t> changed,

@@ -52,11 +52,6 @@ void change(Body &body, const BodyProperties &properties)
   take(properties.user_data, body.user_data);
 }
 
-struct ChangedBodies {
-  std::vector<uint32_t> slots; /* ascending */
-  std::vector<Body> bodies;
-};
-
 /* The worlds of a batch, which messages name: their bodies, 0 if it is none, and the number of the first one. */
 struct WorldsOfMessage {
   uint32_t bodies, first;
@@ -79,8 +74,8 @@ void check_changed(const Scene &scene, const Settings &settings, const Body &bod
 }
 
 /* Several entries for one body are taken in their order. */
-ChangedBodies changed_by(const Scene &scene, const Settings &settings, std::span<const uint32_t> slots,
-                         std::span<const BodyProperties> properties, const WorldsOfMessage &worlds)
+ChangedBodies bodies_with(const Scene &scene, const Settings &settings, std::span<const uint32_t> slots,
+                          std::span<const BodyProperties> properties, const WorldsOfMessage &worlds)
 {
   std::map<uint32_t, Body> changed;
   for (size_t i = 0; i < slots.size(); ++i) {
@@ -147,7 +142,8 @@ BodyProperties properties_of(const Body &body)
           body.user_data};
 }
 
-void World::Implementation::set_properties(std::span<const BodyId> ids, std::span<const BodyProperties> properties)
+/* Throws InputError if a world with these bodies cannot be. */
+ChangedBodies World::Implementation::changed_by(std::span<const BodyId> ids, std::span<const BodyProperties> properties)
 {
   if (ids.size() != properties.size())
     throw InputError(fmt::format("set_properties: {} handles and {} entries; one entry for each handle is needed",
@@ -155,17 +151,29 @@ void World::Implementation::set_properties(std::span<const BodyId> ids, std::spa
   std::vector<uint32_t> given;
   for (const BodyId &id : ids) given.push_back(slots.slot_of("set_properties", id));
   settle_joints();
-  const ChangedBodies changed =
-      changed_by(scene, settings, given, properties, {is_batch() ? bodies_of_world() : 0, first_world});
+  ChangedBodies changed =
+      bodies_with(scene, settings, given, properties, {is_batch() ? bodies_of_world() : 0, first_world});
   if (is_batch()) refuse_joined("set_properties", "its type cannot change in a batch", retyped_by(scene, changed));
   const std::vector<uint32_t> retyped = joints_of_bodies(retyped_by(scene, changed));
   refuse_coupled("set_properties", "the type of its bodies cannot change", retyped);
   refuse_articulated("set_properties", "the type of its bodies cannot change", retyped);
   refuse_idle_joints(retyped, changed.slots, changed.bodies);
   refuse_for_links(changed.slots, changed.bodies);
+  if (!ids.empty()) refuse_unbuilt(changed.slots, changed.bodies);
+  return changed;
+}
+
+void World::Implementation::check_properties(std::span<const BodyId> ids, std::span<const BodyProperties> properties)
+{
+  changed_by(ids, properties);
+}
+
+void World::Implementation::set_properties(std::span<const BodyId> ids, std::span<const BodyProperties> properties)
+{
+  const ChangedBodies changed = changed_by(ids, properties); /* before anything wakes */
   if (ids.empty()) return;
-  refuse_unbuilt(changed.slots, changed.bodies); /* before anything wakes */
-  settle();                                      /* what was called before comes before */
+  const std::vector<uint32_t> retyped = joints_of_bodies(retyped_by(scene, changed));
+  settle(); /* what was called before comes before */
   wake_bodies(changed.slots, true);
   buffers.make_ready(sizes());
   commands.prepare(changed.slots.size());

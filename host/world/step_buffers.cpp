@@ -81,6 +81,7 @@ void StepBuffers::allocate(const Sizes &sizes)
 {
   for (size_t i = 0; i < needs_.touched.size(); ++i)
     if (needs_.touched[i] || queried_[i]) check_size(buffer_at(i), sizes);
+  ++allocations_;
   memory_.share({});
   for (size_t i = 0; i < needs_.touched.size(); ++i) {
     const Buffer buffer = buffer_at(i);

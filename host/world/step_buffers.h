@@ -40,6 +40,8 @@ public:
   void allocate(const Sizes &sizes);
   /* Allocates each buffer on the backends whose kernels use it; does nothing unless something changed. */
   void make_ready(const Sizes &sizes);
+  /* How often buffers were allocated so far: what scratch held, in which programs may keep lists, is lost then. */
+  uint64_t allocations() const { return allocations_; }
   void changed() { ready_ = false; }
   /* Whether buffers share memory. Where they do not, all of them hold what they were last given. */
   void set_sharing(bool on)
@@ -71,6 +73,7 @@ private:
   std::vector<bool> queried_ = std::vector<bool>(all_buffers()); /* used by the structure that queries traverse */
   std::vector<bool> kept_ = std::vector<bool>(all_buffers());    /* after steps, for whoever reads them */
   bool ready_ = false, shares_ = true;
+  uint64_t allocations_ = 0;
 };
 
 /* A module's buffer whose size is that of the last write; the pipeline's buffers of capacity NOTHING are sized by each

@@ -316,9 +316,10 @@ void Worlds::Controls::write(World::Implementation &engine, const Written &writt
   Memory &memory = engine.memory;
   const size_t bytes = items * sizeof(float);
   memory.upload(Buffer::control_number, (is_whole ? written_ : numbers_).data(), bytes);
-  if (!has_places_of_all_ || &written != of_all_.data())
-    memory.upload(Buffer::control_place, written.places.data(), bytes);
+  const bool has_places = has_places_of_all_ && allocations_then_ == engine.buffers.allocations();
+  if (!has_places || &written != of_all_.data()) memory.upload(Buffer::control_place, written.places.data(), bytes);
   has_places_of_all_ = of_all_.size() == 1 && &written == of_all_.data();
+  allocations_then_ = engine.buffers.allocations();
   const auto length = static_cast<uint32_t>(items);
   set_length(memory, length);
   engine.launcher.launch({Kernel::scatter_reals,

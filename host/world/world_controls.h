@@ -79,6 +79,7 @@ private:
   std::vector<float> written_;     /* of each target: what its row has */
   std::vector<Written> of_all_;    /* made when it is first asked for */
   bool has_places_of_all_ = false; /* whether control_place has those of the only list of of_all_ */
+  uint64_t allocations_then_ = 0;  /* of buffers, when it got them */
   uint64_t joints_number_ = 0;     /* World::Implementation::joints_number when the targets were found */
   bool scene_is_behind_ = false;
 };

@@ -64,6 +64,8 @@ void Worlds::reset(std::span<const uint32_t> worlds, std::span<const BodyState> 
   std::vector<WorldBody> put;
   for (const uint32_t world : worlds)
     for (uint32_t body = 0; body < bodies; ++body) put.push_back({world, body});
+  for (const Implementation::Share<WorldBody> &share : implementation_->shares_of(std::span<const WorldBody>(put)))
+    share.group->refuse_bases("reset", share.items);
   reset(worlds);
   set_states(put, states);
 }
@@ -169,16 +171,12 @@ void Worlds::set_properties(std::span<const WorldBody> bodies, std::span<const B
     throw InputError(fmt::format("set_properties: {} handles and {} entries; one entry for each handle is needed",
                                  bodies.size(), properties.size()));
   for (size_t i = 0; i < bodies.size(); ++i) own.check_properties(i, bodies[i], properties[i]);
-  own.replace(
-      bodies, properties,
-      [](Group &group, std::span<const WorldBody> of, std::span<const BodyProperties> given) {
-        (void)given;
-        return group.properties_of(of);
-      },
-      [](Group &group, std::span<const WorldBody> of, std::span<const BodyProperties> given) {
-        group.set_properties(of, given);
-      });
-  for (const Implementation::Share<WorldBody> &share : own.shares_of(bodies)) share.group->note_properties(share.items);
+  own.call(bodies, properties, [](Group &group, std::span<const WorldBody> of, std::span<const BodyProperties> to) {
+    group.check_properties(of, to);
+  });
+  own.call(bodies, properties, [](Group &group, std::span<const WorldBody> of, std::span<const BodyProperties> to) {
+    group.set_properties(of, to);
+  });
 }
 
 void Worlds::set_state_unchecked(const WorldBody &body, const BodyState &state)

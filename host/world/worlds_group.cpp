@@ -113,6 +113,13 @@ void Worlds::Group::add_forces(std::span<const WorldBody> given, std::span<const
   for (const WorldBody &body : given) forced[body.world] = true;
 }
 
+void Worlds::Group::refuse_bases(const char *call, std::span<const WorldBody> given) const
+{
+  std::vector<uint32_t> slots;
+  for (const BodyId &id : ids_of(given)) slots.push_back(id.index);
+  engine().refuse_bases(call, slots);
+}
+
 void Worlds::Group::set_joint_axes(std::span<const WorldJoint> given, std::span<const JointAxisChange> changes)
 {
   write_controls();
@@ -132,24 +139,28 @@ std::vector<JointAxisChange> Worlds::Group::axes_of(std::span<const WorldJoint> 
 }
 
 /* Materials are those of the scene of the body's world. */
+std::vector<BodyProperties> Worlds::Group::in_all(std::span<const WorldBody> given,
+                                                  std::span<const BodyProperties> properties) const
+{
+  std::vector<BodyProperties> of_all(properties.begin(), properties.end());
+  for (size_t k = 0; k < of_all.size(); ++k)
+    if (of_all[k].material) *of_all[k].material += tables.first_material(given[k].world);
+  return of_all;
+}
+
+void Worlds::Group::check_properties(std::span<const WorldBody> given, std::span<const BodyProperties> properties)
+{
+  engine().check_properties(ids_of(given), in_all(given, properties));
+}
+
+/* A feature that properties bring has all joints written anew, as the scene has them. */
 void Worlds::Group::set_properties(std::span<const WorldBody> given, std::span<const BodyProperties> properties)
 {
   const std::vector<BodyId> ids = ids_of(given);
-  std::vector<BodyProperties> in_all(properties.begin(), properties.end());
-  for (size_t k = 0; k < in_all.size(); ++k)
-    if (in_all[k].material) *in_all[k].material += tables.first_material(given[k].world);
-  world->set_properties(ids, in_all);
+  write_controls();
+  world->set_properties(ids, in_all(given, properties));
   upload_starts(ids);
-}
-
-std::vector<BodyProperties> Worlds::Group::properties_of(std::span<const WorldBody> given)
-{
-  std::vector<BodyProperties> properties;
-  for (const WorldBody &body : given) {
-    properties.push_back(tandem::properties_of(engine().scene.bodies[body.world * bodies + body.body]));
-    *properties.back().material -= tables.first_material(body.world);
-  }
-  return properties;
+  note_properties(given);
 }
 
 void Worlds::Group::note_properties(std::span<const WorldBody> given)

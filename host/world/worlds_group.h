@@ -47,10 +47,13 @@ public:
   void attempt_step(const StepLimits &limits);
   void add_impulses(std::span<const WorldBody> given, std::span<const Impulse> impulses);
   void add_forces(std::span<const WorldBody> given, std::span<const Force> forces);
+  void refuse_bases(const char *call, std::span<const WorldBody> given) const;
   void set_joint_axes(std::span<const WorldJoint> given, std::span<const JointAxisChange> changes);
   std::vector<JointAxisChange> axes_of(std::span<const WorldJoint> given, std::span<const JointAxisChange> changes);
   void set_properties(std::span<const WorldBody> given, std::span<const BodyProperties> properties);
-  std::vector<BodyProperties> properties_of(std::span<const WorldBody> given);
+  void check_properties(std::span<const WorldBody> given, std::span<const BodyProperties> properties);
+  std::vector<BodyProperties> in_all(std::span<const WorldBody> given,
+                                     std::span<const BodyProperties> properties) const;
   void note_properties(std::span<const WorldBody> given);
 
   /* --- own gravity and starts: worlds_reset.cpp --- */

@@ -112,7 +112,7 @@ uint32_t worlds_of_group(uint32_t worlds, uint32_t bodies, uint32_t threads)
   if (threads == 1) return worlds;
   const uint32_t for_cache = std::max(1u, bodies_of_group / std::max(bodies, 1u));
   const uint32_t for_threads = (worlds + groups_of_thread * threads - 1) / (groups_of_thread * threads);
-  const uint32_t each = rounded_up(std::min(for_cache, for_threads), worlds_beside);
+  const uint32_t each = std::min(for_cache, rounded_up(for_threads, worlds_beside));
   return worlds / each >= threads && worlds > each ? each : worlds;
 }
 
@@ -227,7 +227,14 @@ void agree() {}
 
 void Worlds::Implementation::step(const StepLimits &limits)
 {
-  const auto attempt = [&](size_t k) { groups[k]->attempt_step(limits); };
+  const auto attempt = [&](size_t k) {
+    try {
+      groups[k]->attempt_step(limits);
+    } catch (const LimitExceeded &error) {
+      if (groups.size() == 1) throw;
+      throw LimitExceeded(fmt::format("{}; so many has one group of the worlds alone", error.what()));
+    }
+  };
   const auto agree_on_limits = [&] { check_limits(limits); };
   const auto complete = [&](size_t k) { groups[k]->engine().complete_step(); };
   TwoPhases phases(groups.size(), attempt, agree_on_limits, complete);

@@ -64,22 +64,32 @@ void Worlds::Group::set_gravity(std::span<const uint32_t> numbers, std::span<con
 
 namespace {
 
-/* Lists of the host, over which launches of a reset run. */
-void make_room(Memory &memory, Buffer buffer, const std::vector<uint32_t> &list)
+/* For a list of the host, over which launches of a reset run. */
+void make_room(Memory &memory, Buffer buffer, size_t entries)
 {
-  if (list.empty()) return;
-  memory.grow(buffer, list.size() * sizeof(uint32_t));
+  if (entries == 0) return;
+  memory.grow(buffer, entries * sizeof(uint32_t));
   memory.prepare_upload(buffer);
 }
 
 } // namespace
 
+/* Joints that are mended may lay out buffers anew, after which there is room again. */
 void Worlds::Group::prepare_reset(std::span<const uint32_t> numbers)
 {
   World::Implementation &all = engine();
   all.settle();
   all.buffers.make_ready(all.sizes());
+  size_t joints_of_all = 0;
+  for (const uint32_t number : numbers) joints_of_all += tables.joints(number);
+  const auto make_room_for_lists = [&] {
+    make_room(all.memory, Buffer::reset_world, numbers.size());
+    make_room(all.memory, Buffer::reset_joint, joints_of_all);
+    make_room(all.memory, Buffer::reset_coupling, all.scene.couplings.size());
+  };
+  make_room_for_lists();
   mend(numbers);
+  make_room_for_lists();
   resetting = {};
   for (const uint32_t number : numbers) {
     const JointPlaces own = present_joints().of(number);
@@ -87,9 +97,6 @@ void Worlds::Group::prepare_reset(std::span<const uint32_t> numbers)
     resetting.joints.insert(resetting.joints.end(), own.places.begin(), own.places.end());
     resetting.couplings.insert(resetting.couplings.end(), own.couplings.begin(), own.couplings.end());
   }
-  make_room(all.memory, Buffer::reset_world, resetting.firsts);
-  make_room(all.memory, Buffer::reset_joint, resetting.joints);
-  make_room(all.memory, Buffer::reset_coupling, resetting.couplings);
 }
 
 void Worlds::Group::reset(std::span<const uint32_t> numbers)

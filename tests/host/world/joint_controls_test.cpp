@@ -421,3 +421,36 @@ TEST_CASE("a joint that an actuator drives stays, and its axis stays free")
   CHECK(worlds.scene(1).joints[0].rotations[0].target_position == number_at(scene.actuators[0], 0.25f));
   CHECK(worlds.scene(1).joints[0].rotations[0].stiffness == 9);
 }
+
+namespace {
+
+/* Buffers are laid out anew by the first force, and by a feature that properties bring. */
+void lay_out_anew(Worlds &worlds, bool by_force)
+{
+  const std::vector<WorldBody> body{{1, 3}};
+  if (by_force) worlds.add_forces(body, std::vector<Force>{{{1, 0, 0}, {}, {}}});
+  else worlds.set_properties(body, std::vector<BodyProperties>{{.linear_damping = 0.1f}});
+}
+
+} // namespace
+
+TEST_CASE("controls of all worlds are what they were set to, whatever lays the buffers out anew")
+{
+  const bool by_force = GENERATE(true, false), in_tree = GENERATE(true, false);
+  CAPTURE(by_force, in_tree);
+  const std::vector<ControlledAxis> axes{{0, 0, Control::force}};
+  Worlds worlds(cart_and_pole(in_tree), 3, {}, {"serial", {}}), told(cart_and_pole(in_tree), 3, {}, {"serial", {}});
+  for (Worlds *one : {&worlds, &told}) {
+    one->choose_controls(axes);
+    one->set_controls(std::vector<float>(3, 3.0f));
+    if (one == &told) one->scene(0); /* the scene has them from here on */
+    lay_out_anew(*one, by_force);
+    one->step();
+  }
+  CHECK(worlds.state_hashes() == told.state_hashes());
+  worlds.set_controls(std::vector<float>(3, -7.0f));
+  told.choose_controls(axes);
+  told.set_controls(std::vector<float>(3, -7.0f));
+  for (Worlds *one : {&worlds, &told}) one->step();
+  CHECK(worlds.state_hashes() == told.state_hashes());
+}
