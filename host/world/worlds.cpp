@@ -2,6 +2,7 @@
 #include "host/world/worlds.h"
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -171,9 +172,10 @@ void Worlds::set_properties(std::span<const WorldBody> bodies, std::span<const B
     throw InputError(fmt::format("set_properties: {} handles and {} entries; one entry for each handle is needed",
                                  bodies.size(), properties.size()));
   for (size_t i = 0; i < bodies.size(); ++i) own.check_properties(i, bodies[i], properties[i]);
-  own.call(bodies, properties, [](Group &group, std::span<const WorldBody> of, std::span<const BodyProperties> to) {
-    group.check_properties(of, to);
-  });
+  if (own.groups.size() > 1) /* a group alone checks them as it takes them */
+    own.call(bodies, properties, [](Group &group, std::span<const WorldBody> of, std::span<const BodyProperties> to) {
+      group.check_properties(of, to);
+    });
   own.call(bodies, properties, [](Group &group, std::span<const WorldBody> of, std::span<const BodyProperties> to) {
     group.set_properties(of, to);
   });
@@ -239,46 +241,39 @@ std::vector<JointReading> Worlds::read_joints(std::span<const WorldJoint> joints
 /* --- events and figures ------------------------------------------------------------------------------------------ */
 namespace {
 
-/* Those of the next group behind those so far. */
-template <class Event> void append(WorldEvents<Event> &all, WorldEvents<Event> next)
+/* What `events_of` answers for each group, one behind the other. */
+template <class Groups, class Function> auto events_of_all(const Groups &groups, const Function &events_of)
 {
-  const size_t before = all.all.size();
-  if (all.first.empty()) all.first.push_back(0);
-  for (size_t k = 1; k < next.first.size(); ++k) all.first.push_back(before + next.first[k]);
-  all.all.insert(all.all.end(), std::make_move_iterator(next.all.begin()), std::make_move_iterator(next.all.end()));
+  auto all = events_of(*groups.front());
+  for (size_t k = 1; k < groups.size(); ++k) {
+    auto next = events_of(*groups[k]);
+    for (size_t world = 1; world < next.first.size(); ++world) all.first.push_back(all.all.size() + next.first[world]);
+    std::ranges::move(next.all, std::back_inserter(all.all));
+  }
+  return all;
 }
 
 } // namespace
 
 WorldEvents<ContactEvent> Worlds::contact_events()
 {
-  WorldEvents<ContactEvent> all;
-  for (const auto &group : implementation_->groups) append(all, group->contact_events());
-  return all;
+  return events_of_all(implementation_->groups, [](Group &group) { return group.contact_events(); });
 }
 WorldEvents<HitEvent> Worlds::hit_events()
 {
-  WorldEvents<HitEvent> all;
-  for (const auto &group : implementation_->groups) append(all, group->hit_events());
-  return all;
+  return events_of_all(implementation_->groups, [](Group &group) { return group.hit_events(); });
 }
 WorldEvents<PairEvent> Worlds::pair_events()
 {
-  WorldEvents<PairEvent> all;
-  for (const auto &group : implementation_->groups) append(all, group->pair_events());
-  return all;
+  return events_of_all(implementation_->groups, [](Group &group) { return group.pair_events(); });
 }
 WorldEvents<uint32_t> Worlds::moved_bodies()
 {
-  WorldEvents<uint32_t> all;
-  for (const auto &group : implementation_->groups) append(all, group->moved_bodies());
-  return all;
+  return events_of_all(implementation_->groups, [](Group &group) { return group.moved_bodies(); });
 }
 WorldEvents<JointBreak> Worlds::joint_breaks() const
 {
-  WorldEvents<JointBreak> all;
-  for (const auto &group : implementation_->groups) append(all, group->joint_breaks());
-  return all;
+  return events_of_all(implementation_->groups, [](Group &group) { return group.joint_breaks(); });
 }
 
 std::vector<Quarantine> Worlds::quarantined(uint32_t world) const

@@ -3,7 +3,6 @@
 
 #include "host/pipeline/body_constraints.h"
 #include "host/pipeline/solvers/joints.h"
-#include "host/pipeline/solvers/mass_split.h"
 #include "host/pipeline/solvers/solvers.h"
 
 namespace tandem {
@@ -48,16 +47,6 @@ void launch_avbd_substep(StepLaunches &step, uint32_t substep, uint32_t colors)
   step.move_bodies();
   solve_rolling(step);
   follow_joints(step, substep);
-}
-
-void bounce_at_end(StepLaunches &step)
-{
-  if (step.has(FEATURE_RESTITUTION)) {
-    MassSplit overflow = MassSplit::overflow_of(step);
-    overflow.prepare();
-    apply_restitution(step, overflow);
-  }
-  bounce_joints(step);
 }
 
 } // namespace

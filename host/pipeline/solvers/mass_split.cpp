@@ -79,4 +79,14 @@ void apply_restitution(StepLaunches &step, MassSplit &overflow)
   overflow.apply_restitution();
 }
 
+void bounce_at_end(StepLaunches &step)
+{
+  if (step.has(FEATURE_RESTITUTION)) {
+    MassSplit overflow = MassSplit::overflow_of(step);
+    overflow.prepare();
+    apply_restitution(step, overflow);
+  }
+  bounce_joints(step);
+}
+
 } // namespace tandem

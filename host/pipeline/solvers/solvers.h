@@ -47,6 +47,8 @@ class MassSplit;
 void warm_start_contacts(StepLaunches &step, MassSplit &overflow);
 void launch_pgs_pass(StepLaunches &step, MassSplit &overflow, uint32_t pass);
 void apply_restitution(StepLaunches &step, MassSplit &overflow);
+/* Of contacts and joints, for solvers that split the mass of overflow constraints for nothing else. */
+void bounce_at_end(StepLaunches &step);
 void warm_start_rolling(StepLaunches &step);
 void solve_rolling(StepLaunches &step);
 

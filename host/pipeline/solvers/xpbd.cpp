@@ -1,6 +1,5 @@
 /* xpbd.cpp - the solver `xpbd`: positions first, then velocities, in small substeps; see shared/solve/xpbd.h. */
 #include "host/pipeline/solvers/joints.h"
-#include "host/pipeline/solvers/mass_split.h"
 #include "host/pipeline/solvers/solvers.h"
 #include "shared/solve/pass.h"
 
@@ -30,16 +29,6 @@ void launch_xpbd_substep(StepLaunches &step, uint32_t substep)
   follow_joints(step, substep);
 }
 
-void bounce(StepLaunches &step)
-{
-  if (step.has(FEATURE_RESTITUTION)) {
-    MassSplit overflow = MassSplit::overflow_of(step);
-    overflow.prepare();
-    apply_restitution(step, overflow);
-  }
-  bounce_joints(step);
-}
-
 } // namespace
 
 void launch_xpbd(StepLaunches &step)
@@ -47,7 +36,7 @@ void launch_xpbd(StepLaunches &step)
   if (step.has(FEATURE_FRICTION)) step.run(Kernel::xpbd_prepare);
   begin_joints(step);
   for (uint32_t substep = 0; substep < step.settings().substeps; ++substep) launch_xpbd_substep(step, substep);
-  bounce(step);
+  bounce_at_end(step);
 }
 
 void commit_xpbd(StepLaunches &step)
