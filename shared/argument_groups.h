@@ -346,6 +346,14 @@ typedef struct {
   BUFFER(split_previous_normal, float4, previous_normal)                                                               \
   BUFFER(split_previous_friction, float4, previous_friction)
 
+/* The impulses on parts of bodies, and the sums of long lists of them: of contacts (solve/mass_split.h) and of joints
+ * (joints/mass_split.h). */
+#define GROUP_parts(BUFFER)                                                                                            \
+  BUFFER(split_impulse, float4, impulse)                                                                               \
+  BUFFER(split_partial, float4, partial)                                                                               \
+  BUFFER(split_joint_impulse, float4, joint_impulse)                                                                   \
+  BUFFER(split_joint_partial, float4, joint_partial)
+
 /* The constraints of each body, and its joints. */
 #define GROUP_body_lists(BUFFER)                                                                                       \
   BUFFER(body_constraint_start, uint, start)                                                                           \
@@ -397,6 +405,9 @@ typedef struct {
   GROUP_iterates(WRITE_MEMBER)
 } write_iterates;
 typedef struct {
+  GROUP_parts(READ_MEMBER)
+} read_parts;
+typedef struct {
   GROUP_body_lists(READ_MEMBER)
 } read_body_lists;
 typedef struct {
@@ -446,6 +457,12 @@ typedef struct {
   BUFFER(cached_joint_linear_impulse, float4, linear)                                                                  \
   BUFFER(cached_joint_angular_impulse, float4, angular)                                                                \
   BUFFER(cached_joint_axis_impulse, float4, axis)
+
+/* The iterates of joints/mass_split.h. */
+#define GROUP_joint_iterates(BUFFER)                                                                                   \
+  BUFFER(split_previous_linear, float4, linear)                                                                        \
+  BUFFER(split_previous_angular, float4, angular)                                                                      \
+  BUFFER(split_previous_axis, float4, axis)
 
 /* The multipliers and penalties of joints in joints/avbd.h, and what a substep leaves open. */
 #define GROUP_joint_duals(BUFFER)                                                                                      \
@@ -511,6 +528,9 @@ typedef struct {
 typedef struct {
   GROUP_joint_penalties(WRITE_MEMBER)
 } write_joint_penalties;
+typedef struct {
+  GROUP_joint_iterates(WRITE_MEMBER)
+} write_joint_iterates;
 typedef struct {
   GROUP_cached_joint_penalties(READ_MEMBER)
 } read_cached_joint_penalties;

@@ -41,6 +41,7 @@ struct StepPlan {
   uint32_t colors = 16;           /* up to COLOR_LIMIT + 1: the overflow constraints */
   uint32_t joint_colors = 0;      /* COLOR_LIMIT + 1: there are overflow joints */
   uint32_t link_joint_colors = 0; /* the same of joints that hold links */
+  uint32_t joint_axes = 0;        /* the most that a joint limits, drives or brakes */
   uint32_t coupling_colors = 0;   /* the same of couplings */
   uint32_t rounds = 16;
   SettledColors settled;

@@ -388,6 +388,7 @@ Features features_of(const Scene &scene, const Settings &settings)
   features |= narrowphase_features(scene, features, settings) | support_features(features, settings) |
               solver_features(settings.solver);
   features |= joint_features(scene) | coupling_features(scene);
+  if (settings.solver == Solver::jacobi && (features & FEATURE_JOINTS) != 0) features |= FEATURE_SPLIT_JOINTS;
   if (!scene.articulations.empty())
     features |= with_needs(settings.tree_joint_forces ? FEATURE_TREE_JOINT_FORCES : FEATURE_ARTICULATIONS);
   if (settings.events) features |= FEATURE_EVENTS;

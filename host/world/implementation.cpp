@@ -90,6 +90,7 @@ World::Implementation::Implementation(Beginning beginning, const Placement &plac
   scene_entries = entries_of({special.awake, special.unbounded, special.large, bodies() - special.awake});
   plan.joint_colors = joint_order.colors();
   plan.link_joint_colors = joint_order.link_colors();
+  plan.joint_axes = joint_graph.axes;
   plan.coupling_colors = coupling_graph.colors;
   plan.links_alone = true;
   plan.trees_apart = are_apart(links, scene.bodies.size() / std::max(special.worlds, 1u));

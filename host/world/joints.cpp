@@ -42,7 +42,7 @@ void World::Implementation::stage_joint_tables(StagedUploads &uploads, std::span
   for (uint32_t i = 0; i < order.size(); ++i) indices[order[i]] = i;
   stage_joints(uploads, scene, joint_graph, joint_order.joints(), indices, plan.bodies);
   stage_bodies_of_joints(uploads, scene, joint_graph, joint_order.awake(), indices, first_joined_pair(sizes()));
-  if (special.features & FEATURE_AVBD)
+  if (special.features & (FEATURE_AVBD | FEATURE_SPLIT_JOINTS))
     stage_joints_of_bodies(uploads, scene, joint_order.awake(), indices, plan.bodies);
   stage_couplings(uploads, scene, coupling_graph);
   stage_joints_of_couplings(uploads, scene, coupling_graph, joint_order.awake());

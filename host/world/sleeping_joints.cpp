@@ -65,7 +65,7 @@ void World::Implementation::tell_joints()
   if (scene.joints.empty() && scene.articulations.empty()) return;
   StagedUploads uploads;
   stage_bodies_of_joints(uploads, scene, joint_graph, joint_order.awake(), index_of_body, first_joined_pair(sizes()));
-  if (special.features & FEATURE_AVBD)
+  if (special.features & (FEATURE_AVBD | FEATURE_SPLIT_JOINTS))
     stage_joints_of_bodies(uploads, scene, joint_order.awake(), index_of_body, plan.bodies);
   stage_joints_of_couplings(uploads, scene, coupling_graph, joint_order.awake());
   if (!scene.articulations.empty())
@@ -82,6 +82,7 @@ void World::Implementation::plan_joints() noexcept
   const std::vector<uint32_t> &starts = joint_order.starts();
   plan.joint_colors = joint_order.colors();
   plan.link_joint_colors = joint_order.link_colors();
+  plan.joint_axes = joint_graph.axes;
   std::copy(starts.begin(), starts.end(), plan.known.begin() + JOINT_COLOR_START);
   plan.known[COUNT_JOINTS] = plan.known[COUNT_COMMIT_JOINTS] = starts.back();
   const std::vector<uint32_t> &of_couplings = coupling_graph.starts;

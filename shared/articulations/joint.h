@@ -151,6 +151,7 @@ SHARED axis_row row_of_link_axis(const link_joint *j, const joint_coordinate *at
   r.response = response_along_row(j, &both);
   r.shared_response = r.response;
   r.mass = inverse_if_positive(r.response);
+  r.leak = R(1.0);
   r.speed = speed_of_row(&j->ends, own);
   return r;
 }

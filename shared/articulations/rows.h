@@ -66,6 +66,7 @@ SHARED axis_row row_of_link(const articulation *t, tree_link l, real change)
   r.at.direction = r.at.turn = r.moment_a = r.moment_b = zero3();
   r.response = r.shared_response = load_single_factor(t, l).response;
   r.mass = inverse_if_positive(r.response);
+  r.leak = R(1.0);
   r.speed = load_state(t, l.k, (uint)STATE_JOINT_VELOCITY).x + change;
   return r;
 }

@@ -63,6 +63,7 @@ typedef struct {
   joint_coordinate at;
   vec3 moment_a, moment_b;
   real response, shared_response, mass, speed;
+  real leak; /* of soft rows, as a share of that of whole bodies: joints/mass_split.h */
 } axis_row;
 
 SHARED real response_along(joint_side s, vec3 direction, vec3 moment)
@@ -76,6 +77,7 @@ SHARED axis_row row_of_coordinate(joint j, joint_coordinate at)
 {
   axis_row r;
   r.at = at;
+  r.leak = R(1.0);
   r.moment_a = add(cross3(j.a.arm, r.at.direction), r.at.turn);
   r.moment_b = add(cross3(j.b.arm, r.at.direction), r.at.turn);
   real of_a = response_along(j.a, r.at.direction, r.moment_a), of_b = response_along(j.b, r.at.direction, r.moment_b);
@@ -174,7 +176,7 @@ SHARED real stop_change(GLOBAL const Parameters *parameters, const axis_row *r, 
   real bias = choose(ahead, open * parameters->inverse_substep, push * limited);
   real share = choose(ahead, (real)R(1.0), (real)parameters->joint_mass_scale),
        leak = choose(ahead, (real)R(0.0), parameters->joint_impulse_scale * maximum(limited, LEAST_LEAK));
-  return R(0.0) - r->mass * share * (r->speed + bias) - leak * old;
+  return R(0.0) - r->mass * share * (r->speed + bias) - leak * r->leak * old;
 }
 
 /* The same of a coordinate that is held in place. open: how far it is from there. */
@@ -183,7 +185,7 @@ SHARED real hold_change(GLOBAL const Parameters *parameters, const axis_row *r, 
   if (pass != PASS_BIASED) return R(0.0) - r->mass * r->speed;
   real push = parameters->joint_bias_rate * open, limited = share_of_closing(push);
   return R(0.0) - r->mass * parameters->joint_mass_scale * (r->speed + push * limited) -
-         parameters->joint_impulse_scale * maximum(limited, LEAST_LEAK) * old;
+         parameters->joint_impulse_scale * maximum(limited, LEAST_LEAK) * r->leak * old;
 }
 
 /* The coordinate as it is nearest to the range; a full turn more or less is the same angle. */

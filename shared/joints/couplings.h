@@ -122,6 +122,7 @@ SHARED axis_row row_of_coupling(const coupling *c)
 {
   axis_row r;
   r.response = r.shared_response = r.speed = R(0.0);
+  r.leak = R(1.0);
   add_side_to_row(&r, &c->aa);
   add_side_to_row(&r, &c->ab);
   add_side_to_row(&r, &c->ba);

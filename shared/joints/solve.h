@@ -37,13 +37,15 @@ SHARED soft_rows soft_rows_of(GLOBAL const Parameters *parameters, vec3 open, re
   return rows;
 }
 
-/* The impulse of a block after a pass. k: the response of its rows; velocity, open: of the rows; old: their impulse. */
-SHARED vec3 solve_rows(GLOBAL const Parameters *parameters, symmetric3 k, vec3 velocity, vec3 open, vec3 old, uint pass)
+/* The impulse of a block after a pass. k: the response of its rows; leak: as that of an axis; velocity, open: of the
+ * rows; old: their impulse. */
+SHARED vec3 solve_rows(GLOBAL const Parameters *parameters, symmetric3 k, real leak, vec3 velocity, vec3 open, vec3 old,
+                       uint pass)
 {
   if (pass != PASS_BIASED) return subtract(old, solve_symmetric(k, velocity));
   soft_rows rows = soft_rows_of(parameters, open, JOINT_CLOSING, LEAST_LEAK);
   vec3 rigid = solve_symmetric(k, add(velocity, rows.closing));
-  return subtract(subtract(old, scale(rigid, parameters->joint_mass_scale)), scale(old, rows.leak));
+  return subtract(subtract(old, scale(rigid, parameters->joint_mass_scale)), scale(old, rows.leak * leak));
 }
 
 /* How far frame b is turned from frame a, in axes of a: about all three axes, or as the lean of the axis x. */
@@ -55,7 +57,8 @@ SHARED vec3 turn_between(quat q, uint_lanes locked)
   return choose3(locked == (uint_lanes)(uint)JOINT_XYZ, whole, lean);
 }
 
-SHARED joint solve_angular_block(GLOBAL const Parameters *parameters, joint j, joint_frames f, vec3 *impulse, uint pass)
+SHARED joint solve_angular_block(GLOBAL const Parameters *parameters, joint j, real leak, joint_frames f, vec3 *impulse,
+                                 uint pass)
 {
   uint_lanes locked = j.modes >> (uint)JOINT_ANGULAR_SHIFT;
   mask wanted = locked != 0u;
@@ -63,7 +66,7 @@ SHARED joint solve_angular_block(GLOBAL const Parameters *parameters, joint j, j
   symmetric3 of_a = scaled_tensor(j.a.inertia, j.a.sharing), of_b = scaled_tensor(j.b.inertia, j.b.sharing);
   symmetric3 k = rows_of_axes(locked, tensor_in_axes(f.axes, add_symmetric(of_a, of_b)));
   vec3 velocity = rotate_back(f.axes, subtract(j.b.velocity.angular, j.a.velocity.angular));
-  vec3 total = solve_rows(parameters, k, along_axes(locked, velocity),
+  vec3 total = solve_rows(parameters, k, leak, along_axes(locked, velocity),
                           along_axes(locked, turn_between(f.relative, locked)), *impulse, pass);
   vec3 change = rotate(f.axes, subtract(total, *impulse));
   *impulse = choose3(wanted, total, *impulse);
@@ -74,7 +77,8 @@ SHARED joint solve_angular_block(GLOBAL const Parameters *parameters, joint j, j
 }
 
 /* Some of the three directions, in axes of frame a. */
-SHARED joint solve_directions(GLOBAL const Parameters *parameters, joint j, joint_frames f, vec3 *impulse, uint pass)
+SHARED joint solve_directions(GLOBAL const Parameters *parameters, joint j, real leak, joint_frames f, vec3 *impulse,
+                              uint pass)
 {
   uint_lanes locked = j.modes & (uint)JOINT_XYZ;
   mask wanted = (locked != 0u) & (locked != (uint_lanes)(uint)JOINT_XYZ);
@@ -83,19 +87,19 @@ SHARED joint solve_directions(GLOBAL const Parameters *parameters, joint j, join
       rows_of_axes(locked, tensor_in_axes(f.axes, add_symmetric(response_of_side(j.a), response_of_side(j.b))));
   vec3 gap = along_axes(locked, rotate_back(f.axes, j.gap));
   vec3 velocity = along_axes(locked, rotate_back(f.axes, closing_velocity(j)));
-  vec3 total = solve_rows(parameters, k, velocity, gap, *impulse, pass);
+  vec3 total = solve_rows(parameters, k, leak, velocity, gap, *impulse, pass);
   vec3 change = rotate(f.axes, subtract(total, *impulse));
   *impulse = choose3(wanted, total, *impulse);
   return with_joint_velocities_if(wanted, j, apply_at_frame(j, change));
 }
 
 /* All three directions, in axes of the world. */
-SHARED joint solve_point(GLOBAL const Parameters *parameters, joint j, vec3 *impulse, uint pass)
+SHARED joint solve_point(GLOBAL const Parameters *parameters, joint j, real leak, vec3 *impulse, uint pass)
 {
   mask wanted = (j.modes & (uint)JOINT_XYZ) == (uint_lanes)(uint)JOINT_XYZ;
   if (!any_of(wanted)) return j;
   symmetric3 k = add_symmetric(response_of_side(j.a), response_of_side(j.b));
-  vec3 total = solve_rows(parameters, k, closing_velocity(j), j.gap, *impulse, pass);
+  vec3 total = solve_rows(parameters, k, leak, closing_velocity(j), j.gap, *impulse, pass);
   vec3 change = subtract(total, *impulse);
   *impulse = choose3(wanted, total, *impulse);
   return with_joint_velocities_if(wanted, j, apply_at_frame(j, change));
@@ -167,11 +171,11 @@ SHARED void solve_joints_item(GLOBAL const Parameters *parameters, read_joints j
   joint_impulses p = load_joint_impulses(parameters, impulses.linear, impulses.angular, i);
   if (HAS_FEATURE(parameters, JOINT_AXES)) j = solve_axes(parameters, j, f, axes, impulses.axis, pass, i);
   if (HAS_FEATURE(parameters, JOINT_FRAMES)) {
-    j = solve_angular_block(parameters, j, f, &p.angular, pass);
-    j = solve_directions(parameters, j, f, &p.linear, pass);
+    j = solve_angular_block(parameters, j, (real)R(1.0), f, &p.angular, pass);
+    j = solve_directions(parameters, j, (real)R(1.0), f, &p.linear, pass);
     store_float4(impulses.angular, i, extend(p.angular, R(0.0)));
   }
-  j = solve_point(parameters, j, &p.linear, pass);
+  j = solve_point(parameters, j, (real)R(1.0), &p.linear, pass);
   store_float4(impulses.linear, i, extend(p.linear, R(0.0)));
   store_joint_velocities(solver_velocity, j);
   if (pass != PASS_RELAXING) return;

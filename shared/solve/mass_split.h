@@ -16,35 +16,20 @@
  * colour after colour.
  *
  * The rows are those of shared/solve/contact.h, with the same fixed points. The solver `jacobi` uses them for all
- * constraints, the others for the overflow constraints, which have no colours.
+ * constraints, at the same time as joints (joints/mass_split.h), the others for the overflow constraints, which have no
+ * colours.
  */
 #ifndef TANDEM_SHARED_SOLVE_MASS_SPLIT_H
 #define TANDEM_SHARED_SOLVE_MASS_SPLIT_H
 
 #include "shared/solve/contact.h"
+#include "shared/solve/parts.h"
 
-/* The entries of a body that has more than this are added in a tree (mass_split_sum.h). The number is above that of
- * colours, so only a scene with overflow constraints has such a body. */
-#define SPLIT_DIRECT 64u
-#define SPLIT_CHUNK 32u
-/* The partial sums of each body have a place of their own: a list of 32 entries needs less than two for each 32. */
-#define SPLIT_FIRST_SUM(start) ((start) >> 4u)
-
-/* The constraints of a body with bodies that cannot be pushed carry all that rests on the body, so together they get as
- * large a part of it as all others together. */
 SHARED real parts_of(GLOBAL const uint *body_constraint_start, GLOBAL const uint *split_static_constraints,
                      uint_lanes body, mask supported)
 {
-  uint_lanes all = load_uint(body_constraint_start, body + 1u) - load_uint(body_constraint_start, body),
-             static_constraints = load_uint(split_static_constraints, body);
-  mask mixed = (static_constraints > (uint_lanes)0u) & (static_constraints < all);
-  return to_real(choose(mixed, choose(supported, static_constraints, all - static_constraints) * 2u, all));
-}
-
-SHARED symmetric3 scaled_inertia(symmetric3 m, real s)
-{
-  symmetric3 r = {m.xx * s, m.yy * s, m.zz * s, m.xy * s, m.xz * s, m.yz * s};
-  return r;
+  uint_lanes all = load_uint(body_constraint_start, body + 1u) - load_uint(body_constraint_start, body);
+  return parts_among(all, load_uint(split_static_constraints, body), supported);
 }
 
 /* Replaces the two bodies of a contact by their parts. */
@@ -57,19 +42,16 @@ SHARED contact split_contact(contact c, real parts_a, real parts_b)
   return c;
 }
 
-/* Runs once a step: computes the effective masses between parts, and the numbers of parts. */
-SHARED void split_masses_item(GLOBAL const Parameters *parameters, read_contacts contacts, read_patches patches,
-                              GLOBAL const float4 *solver_velocity, GLOBAL const float4 *solver_inertia,
-                              GLOBAL const uint *body_constraint_start, GLOBAL const uint *split_static_constraints,
-                              GLOBAL const uint *counts, GLOBAL float4 *split_mass, item_index i)
+SHARED mask is_supported(contact c)
 {
-  point_planes planes = planes_of(counts);
-  contact c = load_contact(parameters, contacts, solver_velocity, solver_inertia, i);
-  mask supported = (c.velocity_a.inverse_mass == R(0.0)) | (c.velocity_b.inverse_mass == R(0.0));
-  real parts_a = parts_of(body_constraint_start, split_static_constraints, c.a, supported),
-       parts_b = parts_of(body_constraint_start, split_static_constraints, c.b, supported);
-  c = split_contact(c, parts_a, parts_b);
-  body_pair parts = bodies_of(c);
+  return (c.velocity_a.inverse_mass == R(0.0)) | (c.velocity_b.inverse_mass == R(0.0));
+}
+
+/* The effective masses between parts, and the numbers of parts. */
+SHARED void store_split_masses(contact c, read_patches patches, point_planes planes, real parts_a, real parts_b,
+                               GLOBAL float4 *split_mass, item_index i)
+{
+  body_pair parts = bodies_of(split_contact(c, parts_a, parts_b));
   vec4 offset = load_float4(patches.offset, i), center = load_float4(patches.center, i);
   real mass[4];
   for (uint k = 0; k < 4u; ++k) {
@@ -82,6 +64,32 @@ SHARED void split_masses_item(GLOBAL const Parameters *parameters, read_contacts
   store_float4(
       split_mass, planes.stride + i,
       make_vec4(friction_mass(parts, center_a, center_b, c.normal), twist_mass(parts, c.normal), parts_a, parts_b));
+}
+
+/* Runs once a step. */
+SHARED void split_masses_item(GLOBAL const Parameters *parameters, read_contacts contacts, read_patches patches,
+                              GLOBAL const float4 *solver_velocity, GLOBAL const float4 *solver_inertia,
+                              GLOBAL const uint *body_constraint_start, GLOBAL const uint *split_static_constraints,
+                              GLOBAL const uint *counts, GLOBAL float4 *split_mass, item_index i)
+{
+  contact c = load_contact(parameters, contacts, solver_velocity, solver_inertia, i);
+  mask supported = is_supported(c);
+  real parts_a = parts_of(body_constraint_start, split_static_constraints, c.a, supported),
+       parts_b = parts_of(body_constraint_start, split_static_constraints, c.b, supported);
+  store_split_masses(c, patches, planes_of(counts), parts_a, parts_b, split_mass, i);
+}
+
+SHARED void split_masses_with_joints_item(GLOBAL const Parameters *parameters, read_contacts contacts,
+                                          read_patches patches, GLOBAL const float4 *solver_velocity,
+                                          GLOBAL const float4 *solver_inertia, read_body_lists body_lists,
+                                          GLOBAL const uint *split_static_constraints, GLOBAL const uint *counts,
+                                          GLOBAL float4 *split_mass_with_joints, item_index i)
+{
+  contact c = load_contact(parameters, contacts, solver_velocity, solver_inertia, i);
+  mask supported = is_supported(c);
+  real parts_a = parts_with_joints(body_lists, split_static_constraints, c.a, supported),
+       parts_b = parts_with_joints(body_lists, split_static_constraints, c.b, supported);
+  store_split_masses(c, patches, planes_of(counts), parts_a, parts_b, split_mass_with_joints, i);
 }
 
 SHARED wrench choose_wrench(mask m, wrench a, wrench b)
@@ -195,8 +203,6 @@ SHARED split_row load_split_row(GLOBAL const Parameters *parameters, read_contac
   return r;
 }
 
-SHARED real share_of_momentum(uint momentum) { return (real)momentum / ((real)momentum + R(3.0)); }
-
 /* Solves the friction of rows with friction, and returns its wrench beyond the impulses before. */
 SHARED wrench solve_split_friction(split_row *r, mask rough, read_patches patches, real normal_impulse_sum,
                                    GLOBAL float4 *friction_impulse, GLOBAL float4 *rubbed, item_index i)
@@ -246,19 +252,18 @@ SHARED vec4 keep_split_impulses(GLOBAL const Parameters *parameters, vec4 normal
   return next;
 }
 
-/* momentum: the number of the iteration, from 0, and 0 again for the last one, which must end within the cones. Earlier
- * iterations are extrapolated in the direction of the last change (Nesterov 1983; Mazhar and others, "Using Nesterov's
- * Method to Accelerate Multibody Dynamics with Friction and Contact", 2015). The method requires an upper bound of the
- * coupling of rows, which splitting gives. */
+/* masses: of split_masses or split_masses_with_joints. momentum: the number of the iteration, from 0, and 0 again
+ * for the last one, which must end within the cones. Earlier iterations are extrapolated in the direction of the
+ * last change (Nesterov 1983; Mazhar and others, "Using Nesterov's Method to Accelerate Multibody Dynamics with
+ * Friction and Contact", 2015). The method requires an upper bound of the coupling of rows, which splitting gives. */
 SHARED void split_solve_item(GLOBAL const Parameters *parameters, read_contacts contacts, read_patches patches,
-                             GLOBAL const float4 *split_mass, read_solver_bodies solver_bodies,
-                             GLOBAL const uint *counts, write_contact_impulses contact_impulses,
-                             write_iterates iterates, GLOBAL float4 *split_impulse, uint pass, uint momentum,
-                             item_index i)
+                             GLOBAL const float4 *masses, read_solver_bodies solver_bodies, GLOBAL const uint *counts,
+                             write_contact_impulses contact_impulses, write_iterates iterates,
+                             GLOBAL float4 *split_impulse, uint pass, uint momentum, item_index i)
 {
   uint biased = pass == PASS_BIASED ? 1u : 0u;
   point_planes planes = planes_of(counts);
-  split_row r = load_split_row(parameters, contacts, split_mass, solver_bodies, planes.stride, momentum, i);
+  split_row r = load_split_row(parameters, contacts, masses, solver_bodies, planes.stride, momentum, i);
   vec4 impulses = load_float4(contact_impulses.normal, i);
   vec3 none = make_vec3(R(0.0), R(0.0), R(0.0));
   wrench rubbed = {none, none, none};
@@ -305,72 +310,41 @@ SHARED void split_restitution_item(GLOBAL const Parameters *parameters, read_con
   store_wrench(split_impulse, planes.stride, i, wrench_of_points(c, &s, impulses, parted));
 }
 
-typedef struct {
-  vec3 linear, angular;
-} impulse_sum;
-
-/* The impulse that entry `at` of the lists gives to its body. */
-SHARED impulse_sum load_entry(GLOBAL const uint *body_constraint, GLOBAL const float4 *split_impulse, uint stride,
-                              mask wanted, uint_lanes at)
-{
-  uint_lanes entry = load_uint(body_constraint, choose(wanted, at, (uint_lanes)0u));
-  uint_lanes constraint = choose(wanted, entry >> 1u, (uint_lanes)0u),
-             side = choose(wanted, entry & 1u, (uint_lanes)0u);
-  vec3 push = xyz(load_float4(split_impulse, constraint));
-  impulse_sum sum = {choose3(side == 0u, negate(push), push),
-                     xyz(load_float4(split_impulse, (side + 1u) * stride + constraint))};
-  return sum;
-}
-
-SHARED impulse_sum load_partial(GLOBAL const float4 *split_partial, mask wanted, uint_lanes at)
-{
-  uint_lanes from = choose(wanted, at, (uint_lanes)0u) * 2u;
-  impulse_sum sum = {xyz(load_float4(split_partial, from)), xyz(load_float4(split_partial, from + 1u))};
-  return sum;
-}
-
-/* The first term starts the sum. */
-SHARED impulse_sum add_term(impulse_sum sum, impulse_sum term, mask wanted, uint k)
-{
-  impulse_sum more = {add(sum.linear, term.linear), add(sum.angular, term.angular)};
-  if (k == 0u) more = term;
-  impulse_sum result = {choose3(wanted, more.linear, sum.linear), choose3(wanted, more.angular, sum.angular)};
-  return result;
-}
-
 /* Joins the parts of a body. trees: whether the sums of bodies with long lists have been computed. */
 SHARED void split_apply_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_constraint_start,
                              GLOBAL const uint *body_constraint, GLOBAL const float4 *split_impulse,
                              GLOBAL const float4 *split_partial, GLOBAL const float4 *solver_inertia,
                              GLOBAL const uint *counts, GLOBAL float4 *solver_velocity, uint trees, item_index i)
 {
-  uint stride = counts[CAPACITY_PAIRS];
   uint_lanes start = load_uint(body_constraint_start, i), entries = load_uint(body_constraint_start, i + 1u) - start;
   if (!any_of(entries > (uint_lanes)0u)) return;
-  mask long_list = (entries > (uint_lanes)SPLIT_DIRECT) & ((uint_lanes)trees != (uint_lanes)0u);
-  uint_lanes direct = choose(long_list, (uint_lanes)0u, entries);
-  vec3 none = make_vec3(R(0.0), R(0.0), R(0.0));
-  impulse_sum sum = {none, none};
-  for (uint k = 0; any_of((uint_lanes)k < direct); ++k) {
-    mask more = (uint_lanes)k < direct;
-    sum = add_term(sum, load_entry(body_constraint, split_impulse, stride, more, start + (uint_lanes)k), more, k);
+  impulse_sum sum =
+      sum_of_entries(body_constraint, split_impulse, split_partial, counts[CAPACITY_PAIRS], start, entries, trees);
+  push_whole(parameters, solver_inertia, solver_velocity, sum, i);
+}
+
+/* The same of a body whose joints are solved at the same time, too. joint_trees: as `trees`, of joints. */
+SHARED void split_apply_with_joints_item(GLOBAL const Parameters *parameters, read_body_lists body_lists,
+                                         read_parts parts, GLOBAL const float4 *solver_inertia,
+                                         GLOBAL const uint *counts, GLOBAL float4 *solver_velocity, uint trees,
+                                         uint joint_trees, item_index i)
+{
+  uint_lanes start = load_uint(body_lists.start, i), contacts = load_uint(body_lists.start, i + 1u) - start;
+  uint_lanes first = load_uint(body_lists.joint_start, i), joints = load_uint(body_lists.joint_start, i + 1u) - first;
+  mask touches = contacts > (uint_lanes)0u, is_joined = joints > (uint_lanes)0u;
+  if (!any_of(touches | is_joined)) return;
+  impulse_sum sum =
+      sum_of_entries(body_lists.entries, parts.impulse, parts.partial, counts[CAPACITY_PAIRS], start, contacts, trees);
+  if (any_of(is_joined)) {
+    impulse_sum more = sum_of_entries(body_lists.joint_entries, parts.joint_impulse, parts.joint_partial,
+                                      parameters->joints, first, joints, joint_trees);
+    impulse_sum both = {add(sum.linear, more.linear), add(sum.angular, more.angular)};
+    both.linear = choose3(touches, both.linear, more.linear);
+    both.angular = choose3(touches, both.angular, more.angular);
+    sum.linear = choose3(is_joined, both.linear, sum.linear);
+    sum.angular = choose3(is_joined, both.angular, sum.angular);
   }
-  if (any_of(long_list)) {
-    uint_lanes sums =
-        choose(long_list, (entries + (uint_lanes)(SPLIT_CHUNK * SPLIT_CHUNK - 1u)) >> 10u, (uint_lanes)0u);
-    for (uint k = 0; any_of((uint_lanes)k < sums); ++k) {
-      mask more = (uint_lanes)k < sums;
-      sum = add_term(sum, load_partial(split_partial, more, SPLIT_FIRST_SUM(start) + (uint_lanes)(k * SPLIT_CHUNK)),
-                     more, k);
-    }
-  }
-  spatial_velocity m = load_velocity(solver_velocity, i);
-  real locks;
-  symmetric3 inertia = load_inertia_and_locks(parameters, solver_inertia, i, m, &locks);
-  m.linear = pushed(m.linear, locks, sum.linear, m.inverse_mass);
-  m.angular = add(m.angular, symmetric_times(inertia, sum.angular));
-  mask changed = is_nonzero(sum.linear) | is_nonzero(sum.angular); /* adding 0 would turn -0 into +0 */
-  store_velocity_if(changed & (m.inverse_mass > R(0.0)), solver_velocity, i, m);
+  push_whole(parameters, solver_inertia, solver_velocity, sum, i);
 }
 
 #endif

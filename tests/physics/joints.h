@@ -67,6 +67,24 @@ inline Scene hanging_boxes(int boxes, float mass, JointType type = JointType::ba
   return scene;
 }
 
+/* A hub, body 0, with so many balls around it, each on a joint. */
+inline Scene hub_with_balls(uint32_t balls, const Vec3 &gravity)
+{
+  Scene scene = empty_scene(gravity);
+  add_body(scene, BodyType::dynamic, sphere_shape(0.5f), {0, 0, 0}).mass = 10;
+  scene.shapes.push_back(sphere_shape(0.02f));
+  for (uint32_t k = 0; k < balls; ++k) {
+    const double height = 1 - 2 * (k + 0.5) / balls, angle = 2.399963 * k, radius = std::sqrt(1 - height * height);
+    Body body;
+    body.shape = 1;
+    body.mass = 0.05f;
+    body.position = {2 * radius * std::cos(angle), 2 * height, 2 * radius * std::sin(angle)};
+    scene.bodies.push_back(body);
+    connect(scene, JointType::ball, 0, k + 1, vector_of(body.position));
+  }
+  return scene;
+}
+
 /* Two free boxes that fly and tumble, with a joint between them. */
 inline Scene tumbling_pair(Random &random, JointType type)
 {

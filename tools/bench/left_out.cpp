@@ -28,7 +28,7 @@ namespace {
 constexpr Features chosen_features = FEATURE_AXES | FEATURE_EXPANSION | FEATURE_SAMPLED | FEATURE_FIELDS |
                                      FEATURE_SAT_SPLIT | FEATURE_HILL_CLIMBING | FEATURE_CUBE_MAP |
                                      FEATURE_SUBSTEP_WARM_START | FEATURE_WORLDS | FEATURE_PGS | FEATURE_NNCG |
-                                     FEATURE_XPBD | FEATURE_AVBD;
+                                     FEATURE_XPBD | FEATURE_AVBD | FEATURE_SPLIT_JOINTS;
 
 struct TimedWorld {
   std::unique_ptr<World> world;

@@ -4,25 +4,20 @@
 namespace tandem {
 namespace {
 
-/* Joints past the last colour, then couplings. */
-void solve_rest(StepLaunches &step, uint32_t pass, bool further)
+void solve_couplings(StepLaunches &step, uint32_t pass, bool further)
 {
-  const bool in_batch = step.has(FEATURE_WORLDS);
-  if (in_batch) step.run_overflow_joints(Kernel::solve_overflow_joints_by_world, {pass, further});
-  else step.run_overflow_joints(Kernel::solve_overflow_joints, {pass});
   if (!step.has(FEATURE_COUPLINGS)) return;
   step.for_each_coupling_color(further ? Kernel::solve_couplings_further : Kernel::solve_couplings, {pass});
-  if (in_batch) step.run_overflow_couplings(Kernel::solve_overflow_couplings_by_world, {pass, further});
+  if (step.has(FEATURE_WORLDS)) step.run_overflow_couplings(Kernel::solve_overflow_couplings_by_world, {pass, further});
   else step.run_overflow_couplings(Kernel::solve_overflow_couplings, {pass});
 }
 
-void warm_start_rest(StepLaunches &step)
+/* Joints past the last colour, then couplings. */
+void solve_rest(StepLaunches &step, uint32_t pass, bool further)
 {
-  step.run_overflow_joints(step.has(FEATURE_WORLDS) ? Kernel::warm_start_overflow_joints_by_world
-                                                    : Kernel::warm_start_overflow_joints);
-  if (!step.has(FEATURE_COUPLINGS)) return;
-  step.for_each_coupling_color(Kernel::warm_start_couplings);
-  step.run_overflow_couplings(Kernel::warm_start_overflow_couplings);
+  if (step.has(FEATURE_WORLDS)) step.run_overflow_joints(Kernel::solve_overflow_joints_by_world, {pass, further});
+  else step.run_overflow_joints(Kernel::solve_overflow_joints, {pass});
+  solve_couplings(step, pass, further);
 }
 
 } // namespace
@@ -35,13 +30,16 @@ void begin_joints(StepLaunches &step)
 void warm_start_with_joints(StepLaunches &step)
 {
   step.for_each_color_with_joints(Kernel::warm_start_joints, {}, Kernel::warm_start, {});
-  warm_start_rest(step);
+  step.run_overflow_joints(step.has(FEATURE_WORLDS) ? Kernel::warm_start_overflow_joints_by_world
+                                                    : Kernel::warm_start_overflow_joints);
+  warm_start_couplings(step);
 }
 
-void warm_start_joints(StepLaunches &step)
+void warm_start_couplings(StepLaunches &step)
 {
-  step.for_each_joint_color(Kernel::warm_start_joints);
-  warm_start_rest(step);
+  if (!step.has(FEATURE_COUPLINGS)) return;
+  step.for_each_coupling_color(Kernel::warm_start_couplings);
+  step.run_overflow_couplings(Kernel::warm_start_overflow_couplings);
 }
 
 void clear_joint_impulses(StepLaunches &step)
@@ -62,6 +60,8 @@ void solve_joints(StepLaunches &step, uint32_t pass)
   step.for_each_joint_color(Kernel::solve_joints, {pass});
   solve_rest(step, pass, false);
 }
+
+void solve_couplings(StepLaunches &step, uint32_t pass) { solve_couplings(step, pass, false); }
 
 void follow_joints(StepLaunches &step, uint32_t substep)
 {

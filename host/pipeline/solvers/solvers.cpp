@@ -19,8 +19,8 @@ std::span<const SolverRow> solvers()
        true, launch_xpbd, commit_xpbd},
       {Solver::avbd, "avbd", "bodies one by one against penalties with multipliers (Giles, Diaz and Yuksel 2025)", 1,
        10, false, launch_avbd, commit_avbd},
-      {Solver::jacobi, "jacobi", "all contacts at once on bodies split by mass (Tonge and others 2012)", 4, 8, true,
-       launch_jacobi},
+      {Solver::jacobi, "jacobi", "all contacts and joints at once on bodies split by mass (Tonge and others 2012)", 4,
+       8, true, launch_jacobi},
       {Solver::direct, "direct", "soft-step, then small islands solved to convergence in double on the CPU", 4, 1, true,
        launch_direct},
   };
