@@ -11,16 +11,28 @@
  *
  * Values are those at the end of the substep if both bodies keep their velocities, so rows follow any turn within it.
  * As with contacts, a share of 1 - AVBD_ALPHA of what is open when the substep begins is closed in it; the rest is
- * left. Joints last, so their multipliers do, too. A spring whose stiffness is above its penalty has a multiplier and
- * the violation c + lambda / (h^2 k + h d), which is 0 where the spring's own law holds.
+ * left. What three held directions leave turns with frame a: the impulse acts on a at the origin of frame b, and only
+ * of a gap that turns with a is that the derivative. Joints last, so their multipliers do, too. A spring whose
+ * stiffness is above its penalty has a multiplier and the violation c + lambda / (h^2 k + h d), which is 0 where the
+ * spring's own law holds.
+ *
+ * A penalty grows with its violation, but no further than the mass that its row carries. With a smaller one the
+ * multiplier takes many iterations to find a load; with a larger one bodies that move together hand their momentum on
+ * by one part in kappa / m an iteration, so that what links turn lags behind and is lost, or gained. The mass is
+ * |lambda| / |w - v*|: what hangs still is held by lambda = M g h and differs by g h from its free fall. Springs keep
+ * the slow growth of contacts, because all that they are open counts in each substep.
  *
  * Impulses act along the directions that rows have when the substep begins. With values at its end this is the scheme
  * SHAKE (Ryckaert, Ciccotti and Berendsen, 1977), which keeps energy, and no impulse has an angular momentum. It is
  * explicit in how a push turns with its body, and a light body on which a large force pulls swings too fast for it.
  * There, directions are those at a later share of the substep, `ahead`: from half on any force is stable, and swings
  * are damped. The derivative of the directions is then a part of the body's system; the sizes of its columns are added
- * to the diagonal, as in the paper. Rows of bodies that turn far in a substep are `straight`: their values follow the
- * velocities as they are, because a descent along rows that turn by half a radian does not converge.
+ * to the diagonal, as in the paper.
+ *
+ * A descent along rows whose values change along directions that are off by an angle of a contracts by 2 sin(a / 2) an
+ * iteration at best. So rows are `straight` where that is too much: their values follow the velocities as they are. It
+ * is so for what bodies that turn far hold, for rotations that are far open, and for an axis which itself turns far,
+ * as that of a cone does near 0, and that of a distance which is short.
  */
 #ifndef TANDEM_SHARED_JOINTS_AVBD_H
 #define TANDEM_SHARED_JOINTS_AVBD_H
@@ -31,9 +43,12 @@
 /* m/s, rad/s: a multiplier is at most what gives its mass this speed, so that rows that contradict each other pull with
  * a force beside which floats still tell a centimetre a second. */
 #define AVBD_LAST_MULTIPLIER R(1e5)
-#define AVBD_JOINT_GAMMA R(0.93) /* what penalties keep from one substep to the next */
-#define AVBD_SLOW_SWING R(0.5)   /* rad^2 in a substep: up to this a swing is left to itself */
-#define AVBD_SMALL_TURN R(0.25)  /* rad in a substep: from twice this on, rows are straight */
+#define AVBD_JOINT_GROWTH R(2.0)    /* of a penalty in an iteration, at most */
+#define AVBD_JOINT_SHRINKING R(0.9) /* the same where it is larger than what its row carries */
+#define AVBD_SPRING_GAMMA R(0.93)   /* what penalties of springs keep from one substep to the next */
+#define AVBD_SLOW_SWING R(0.5)      /* rad^2 in a substep: up to this a swing is left to itself */
+#define AVBD_SMALL_TURN R(0.25) /* rad in a substep: a descent along rows that are off by it contracts to a quarter */
+#define AVBD_LARGE_TURN R(0.5)  /* from this on, rows are straight */
 
 /* A row at the present velocities. stiffness: of the impulse, kg or kg m^2; holds: nothing bounds its impulse. */
 typedef struct {
@@ -52,11 +67,11 @@ typedef struct {
   real multiplier[6], penalty[6], left[6];
 } held_rows;
 
-/* A joint where the directions of its rows are taken, and at the end of the substep. straight: the share of values that
- * follow the velocities; time: that of the substep. */
+/* A joint when the substep begins, where the directions of its rows are taken, and at the end. ahead: the share of the
+ * substep at which these are taken; straight: the share of held values that follow the velocities; time: its length. */
 typedef struct {
-  joint j, end;
-  joint_frames f, end_f;
+  joint start, j, end;
+  joint_frames start_f, f, end_f;
   real ahead, straight, time;
 } avbd_joint;
 
@@ -85,22 +100,18 @@ SHARED avbd_joint load_avbd_joint(GLOBAL const Parameters *parameters, read_join
 {
   avbd_joint joint;
   real h = parameters->substep;
-  joint.j = load_joint_after(parameters, joints, bodies, solver_velocity, R(0.0), i);
+  joint.start = load_joint_after(parameters, joints, bodies, solver_velocity, R(0.0), i);
+  joint.j = joint.start;
+  if (ahead > R(0.0)) joint.j = load_joint_after(parameters, joints, bodies, solver_velocity, ahead * h, i);
   real angle = h * maximum(length_of(joint.j.a.velocity.angular), length_of(joint.j.b.velocity.angular));
   joint.straight = clamped((angle - AVBD_SMALL_TURN) / AVBD_SMALL_TURN, R(0.0), R(1.0));
-  joint.ahead = joint.straight > R(0.0) ? R(0.0) : ahead;
-  if (joint.ahead > R(0.0)) joint.j = load_joint_after(parameters, joints, bodies, solver_velocity, joint.ahead * h, i);
+  joint.ahead = ahead;
   joint.end = load_joint_after(parameters, joints, bodies, solver_velocity, h, i);
+  joint.start_f = frames_of(parameters, joint.start, joints, i);
   joint.f = frames_of(parameters, joint.j, joints, i);
   joint.end_f = frames_of(parameters, joint.end, joints, i);
   joint.time = h;
   return joint;
-}
-
-/* The value of a row at the end. That of bodies which turn far is where they would be without turning further. */
-SHARED real value_at_end(const avbd_joint *joint, const axis_row *r, real end)
-{
-  return end + joint->straight * ((r->at.value + joint->time * r->speed) - end);
 }
 
 SHARED void put_three(real *to, vec3 v)
@@ -150,10 +161,28 @@ SHARED joint_coordinate held_coordinate(joint j, joint_frames f, uint k)
   return at;
 }
 
-SHARED axis_row held_row_of(const avbd_joint *joint, uint k)
+/* The value of a row at the end if its direction stays as it is. */
+SHARED real straight_value(const avbd_joint *joint, const axis_row *at)
+{
+  return at->at.value + (R(1.0) - joint->ahead) * joint->time * at->speed;
+}
+
+/* What three directions leave open is in axes of frame a. */
+SHARED real row_left(const avbd_joint *joint, joint_frames f, const held_rows *rows, uint k)
+{
+  if (k < 3u && (joint->j.modes & (uint)JOINT_XYZ) == (uint)JOINT_XYZ)
+    return one_of_three(rotate(f.axes, take_three(rows->left)), k);
+  return rows->left[k];
+}
+
+/* Its value is what is open beyond what may be left. */
+SHARED axis_row held_row_of(const avbd_joint *joint, const held_rows *rows, uint k)
 {
   axis_row r = row_of_coordinate(joint->j, held_coordinate(joint->j, joint->f, k));
-  r.at.value = value_at_end(joint, &r, held_coordinate(joint->end, joint->end_f, k).value);
+  real straight = straight_value(joint, &r) - row_left(joint, joint->f, rows, k);
+  real end = held_coordinate(joint->end, joint->end_f, k).value - row_left(joint, joint->end_f, rows, k);
+  real share = k >= 3u && magnitude(rows->left[k]) > AVBD_LARGE_TURN ? R(1.0) : joint->straight;
+  r.at.value = end + share * (straight - end);
   return r;
 }
 
@@ -264,12 +293,32 @@ SHARED avbd_row limit_row(GLOBAL const Parameters *parameters, const axis_row *r
                    (to_upper + maximum(left, R(0.0))) * parameters->inverse_substep);
 }
 
+/* Whether the direction of an axis turns far within the substep, or its rotation does, perhaps by more than a turn. */
+SHARED uint turns_far(const avbd_joint *joint, const axis_row *at, joint_coordinate end, uint kind)
+{
+  real off =
+      length_squared(subtract(end.direction, at->at.direction)) + length_squared(subtract(end.turn, at->at.turn));
+  uint is_far = is_rotation(kind) && magnitude(joint->time * at->speed) > AVBD_LARGE_TURN ? 1u : 0u;
+  return is_far != 0u || off > AVBD_SMALL_TURN * AVBD_SMALL_TURN ? 1u : 0u;
+}
+
+SHARED axis_row row_of_avbd_axis(const avbd_joint *joint, uint kind)
+{
+  axis_row at = row_of_axis(joint->j, joint->f, kind);
+  joint_coordinate end = coordinate_of(joint->end, joint->end_f, kind);
+  if (turns_far(joint, &at, end, kind) != 0u) {
+    at = row_of_axis(joint->start, joint->start_f, kind);
+    end.value = at.at.value + joint->time * at.speed;
+  }
+  at.at.value = end.value;
+  return at;
+}
+
 SHARED avbd_axis avbd_axis_of(GLOBAL const Parameters *parameters, const avbd_joint *joint, const joint_axis *axis,
                               vec4 multiplier, vec4 penalty, real left)
 {
   avbd_axis rows;
-  rows.at = row_of_axis(joint->j, joint->f, axis->kind);
-  rows.at.at.value = value_at_end(joint, &rows.at, coordinate_of(joint->end, joint->end_f, axis->kind).value);
+  rows.at = row_of_avbd_axis(joint, axis->kind);
   rows.drive = drive_row(parameters, &rows.at, axis, multiplier.x, penalty.x);
   rows.limit = limit_row(parameters, &rows.at, axis, left, multiplier.y, penalty.y);
   rows.friction = friction_row(parameters, &rows.at, axis->friction, multiplier.z, penalty.z);
@@ -331,19 +380,12 @@ SHARED void avbd_prepare_joints_item(GLOBAL const Parameters *parameters, read_j
 
 /* --- a substep begins --- */
 
-/* Stiff joints move as one, but share their momentum slowly, so a penalty that is not needed any more goes down. */
-SHARED void lower_penalties(GLOBAL float4 *penalty, uint at)
-{
-  vec4 p = load_float4(penalty, at);
-  store_float4(
-      penalty, at,
-      make_vec4(AVBD_JOINT_GAMMA * p.x, AVBD_JOINT_GAMMA * p.y, AVBD_JOINT_GAMMA * p.z, AVBD_JOINT_GAMMA * p.w));
-}
-
-/* The square of the angle by which a push of this size makes a side swing in a second, about, over its time. */
+/* The square of the angle by which a push of this size makes a side swing in a second, about, over its time. No push
+ * turns a body about its arm. */
 SHARED real swing_of_side(joint_side s, real push)
 {
-  real turns = R(0.333333) * ((s.inertia.xx + s.inertia.yy) + s.inertia.zz), arm = length_of(s.arm);
+  real arm = length_of(s.arm), trace = (s.inertia.xx + s.inertia.yy) + s.inertia.zz, turns = R(0.333333) * trace;
+  if (arm > R(0.0)) turns = R(0.5) * (trace - dot3(s.arm, symmetric_times(s.inertia, s.arm)) / (arm * arm));
   if (!(turns > R(0.0))) return R(0.0);
   return push * (arm * turns + s.velocity.inverse_mass / square_root(arm * arm + s.velocity.inverse_mass / turns));
 }
@@ -360,7 +402,21 @@ SHARED vec3 open_rows(GLOBAL const Parameters *parameters, joint j, joint_frames
   real open[3];
   for (uint k = 0; k < 3u; ++k)
     open[k] = holds_row(j, first + k) ? left_open(parameters, held_coordinate(j, f, first + k).value) : R(0.0);
-  return take_three(open);
+  vec3 left = take_three(open);
+  return first == 0u && (j.modes & (uint)JOINT_XYZ) == (uint)JOINT_XYZ ? rotate_back(f.axes, left) : left;
+}
+
+/* A motor has a negative damping. */
+SHARED uint springs_drive(const joint_axis *axis) { return axis->damping >= R(0.0) ? 1u : 0u; }
+SHARED uint springs_limit(const joint_axis *axis) { return axis->limit_stiffness > R(0.0) ? 1u : 0u; }
+
+/* Stiff springs share their momentum slowly, so a penalty that is not needed any more goes down. */
+SHARED void lower_spring_penalties(const joint_axis *axis, GLOBAL float4 *penalty, uint at)
+{
+  vec4 p = load_float4(penalty, at);
+  if (springs_drive(axis)) p.x = AVBD_SPRING_GAMMA * p.x;
+  if (springs_limit(axis)) p.y = AVBD_SPRING_GAMMA * p.y;
+  store_float4(penalty, at, p);
 }
 
 /* How far an axis is beyond its limits. */
@@ -372,6 +428,12 @@ SHARED real beyond_limits(joint j, joint_frames f, const joint_axis *axis)
   return value - clamped(value, axis->lower, axis->upper);
 }
 
+/* The size of the push of drive and limit of an axis; 0 for one that turns. */
+SHARED real push_of_axis(uint kind, real drive, real limit)
+{
+  return kind <= (uint)JOINT_AXIS_Z || kind == (uint)JOINT_AXIS_DISTANCE ? magnitude(drive) + magnitude(limit) : R(0.0);
+}
+
 /* What axes leave open; the sum of the pushes that they had. */
 SHARED real begin_avbd_axes(GLOBAL const Parameters *parameters, joint j, joint_frames f, read_joint_axes axes,
                             write_joint_duals duals, uint i)
@@ -381,9 +443,8 @@ SHARED real begin_avbd_axes(GLOBAL const Parameters *parameters, joint j, joint_
     uint at = joint_plane(parameters, k) + i;
     joint_axis axis = load_axis(parameters, axes, k, i);
     vec4 multiplier = load_float4(duals.axis, at);
-    lower_penalties(duals.axis_penalty, at);
-    if (axis.kind <= (uint)JOINT_AXIS_Z || axis.kind == (uint)JOINT_AXIS_DISTANCE)
-      pushes = pushes + (magnitude(multiplier.x) + magnitude(multiplier.y));
+    lower_spring_penalties(&axis, duals.axis_penalty, at);
+    pushes = pushes + push_of_axis(axis.kind, multiplier.x, multiplier.y);
     store_real(duals.axis_left, at, left_open(parameters, beyond_limits(j, f, &axis)));
   }
   return pushes;
@@ -396,8 +457,6 @@ SHARED void avbd_begin_joints_item(GLOBAL const Parameters *parameters, read_joi
   joint j = load_joint_after(parameters, joints, bodies, solver_velocity, R(0.0), i);
   joint_frames f = frames_of(parameters, j, joints, i);
   real push = length_of(xyz(load_float4(duals.linear, i)));
-  lower_penalties(duals.linear_penalty, i);
-  if (HAS_FEATURE(parameters, JOINT_FRAMES)) lower_penalties(duals.angular_penalty, i);
   if (HAS_FEATURE(parameters, JOINT_AXES)) push = push + begin_avbd_axes(parameters, j, f, axes, duals, i);
   store_float4(duals.linear_left, i, extend(open_rows(parameters, j, f, 0u), share_ahead(parameters, j, push)));
   if (HAS_FEATURE(parameters, JOINT_FRAMES))
@@ -406,25 +465,84 @@ SHARED void avbd_begin_joints_item(GLOBAL const Parameters *parameters, read_joi
 
 /* --- an iteration ends: multipliers take the impulses, and penalties grow --- */
 
+/* What the velocities of a body are beside those of inertia and gravity alone. */
+typedef struct {
+  vec3 linear, angular;
+} change_of_velocity;
+typedef struct {
+  change_of_velocity a, b;
+} side_changes;
+
+SHARED change_of_velocity load_change(GLOBAL const float4 *avbd_target, joint_side s)
+{
+  vec3 none = make_vec3(R(0.0), R(0.0), R(0.0));
+  change_of_velocity c = {none, none};
+  if (s.is_world) return c;
+  spatial_velocity target = load_velocity(avbd_target, s.body);
+  c.linear = subtract(s.velocity.linear, target.linear);
+  c.angular = subtract(s.velocity.angular, target.angular);
+  return c;
+}
+
 SHARED real kept_multiplier(avbd_row r, real mass)
 {
   return clamped(r.impulse, -AVBD_LAST_MULTIPLIER * mass, AVBD_LAST_MULTIPLIER * mass);
 }
 
-SHARED real grown_row(avbd_row r, real penalty, real mass)
+/* The mass that a row carries whose bodies are faster or slower by this speed than inertia and gravity alone have
+ * them. What is no more than the row's violation is no load. */
+SHARED real carried_mass(real impulse, real speed, real mass, real violation)
 {
-  return grown_penalty(penalty, mass, r.violation, r.holds != 0u);
+  if (!(impulse > mass * magnitude(violation))) return AVBD_FREE_PENALTY * mass;
+  real most = AVBD_LAST_PENALTY * mass;
+  return speed * most > impulse ? maximum(impulse / speed, AVBD_FREE_PENALTY * mass) : most;
 }
 
-SHARED void grow_held_rows(GLOBAL const Parameters *parameters, const avbd_joint *joint, held_rows *rows)
+SHARED vec3 change_at(change_of_velocity c, vec3 arm) { return add(c.linear, cross3(c.angular, arm)); }
+
+/* The larger one of both sides. */
+SHARED real speed_at_frame(const side_changes *changes, const avbd_joint *joint)
 {
+  return maximum(length_of(change_at(changes->a, joint->j.a.arm)), length_of(change_at(changes->b, joint->j.b.arm)));
+}
+SHARED real speed_along_row(const side_changes *changes, const axis_row *at)
+{
+  real a = dot3(at->at.direction, changes->a.linear) + dot3(at->moment_a, changes->a.angular),
+       b = dot3(at->at.direction, changes->b.linear) + dot3(at->moment_b, changes->b.angular);
+  return maximum(magnitude(a), magnitude(b));
+}
+
+/* carried: the mass beyond which the penalty does not grow. It is known only as well as the iterations have converged,
+ * so a penalty follows it by degrees. */
+SHARED real grown_row(avbd_row r, real penalty, real mass, real carried)
+{
+  if (!(mass > R(0.0))) return penalty;
+  if (penalty > carried) return maximum(carried, AVBD_JOINT_SHRINKING * penalty);
+  if (r.holds == 0u) return penalty;
+  real grown = penalty + AVBD_BETA * mass * magnitude(r.violation);
+  return minimum(minimum(grown, carried), maximum(AVBD_JOINT_GROWTH * penalty, AVBD_FREE_PENALTY * mass));
+}
+
+SHARED real grown_axis_row(avbd_row r, real penalty, real mass, real speed, uint springs)
+{
+  if (springs != 0u) return grown_penalty(penalty, mass, r.violation, r.holds != 0u);
+  return grown_row(r, penalty, mass, carried_mass(magnitude(r.impulse), speed, mass, r.violation));
+}
+
+SHARED void grow_held_rows(GLOBAL const Parameters *parameters, const avbd_joint *joint, const side_changes *changes,
+                           held_rows *rows)
+{
+  real impulse[2] = {length_of(take_three(rows->multiplier)),
+                     HAS_FEATURE(parameters, JOINT_FRAMES) ? length_of(take_three(rows->multiplier + 3)) : R(0.0)};
+  real speed[2] = {speed_at_frame(changes, joint),
+                   maximum(length_of(changes->a.angular), length_of(changes->b.angular))};
   for (uint k = 0; k < (HAS_FEATURE(parameters, JOINT_FRAMES) ? 6u : 3u); ++k) {
     if (!holds_row(joint->j, k)) continue;
-    axis_row at = held_row_of(joint, k);
-    avbd_row r =
-        held_row(rows->multiplier[k], rows->penalty[k], (at.at.value - rows->left[k]) * parameters->inverse_substep);
+    axis_row at = held_row_of(joint, rows, k);
+    avbd_row r = held_row(rows->multiplier[k], rows->penalty[k], at.at.value * parameters->inverse_substep);
     rows->multiplier[k] = kept_multiplier(r, at.mass);
-    rows->penalty[k] = grown_row(r, rows->penalty[k], at.mass);
+    rows->penalty[k] =
+        grown_row(r, rows->penalty[k], at.mass, carried_mass(impulse[k / 3u], speed[k / 3u], at.mass, r.violation));
   }
 }
 
@@ -439,28 +557,36 @@ SHARED avbd_row held_as(real multiplier)
   return r;
 }
 
-SHARED void grow_axes(GLOBAL const Parameters *parameters, const avbd_joint *joint, read_joint_blocks blocks,
-                      write_joint_duals duals, uint i)
+/* The sum of the pushes of axes. */
+SHARED real grow_axes(GLOBAL const Parameters *parameters, const avbd_joint *joint, const side_changes *changes,
+                      read_joint_blocks blocks, write_joint_duals duals, uint i)
 {
+  real pushes = R(0.0);
+  read_joint_axes axes = {blocks.kind, blocks.row};
   for (uint k = 0; k < parameters->joint_axes; ++k) {
     uint at = joint_plane(parameters, k) + i;
     if (load_uint(blocks.kind, at) == (uint)JOINT_AXIS_NONE) continue;
     avbd_axis rows = load_avbd_axis(parameters, joint, blocks, k, i);
     vec4 penalty = load_float4(blocks.axis_penalty, at);
-    real mass = rows.at.mass;
+    real mass = rows.at.mass, speed = speed_along_row(changes, &rows.at);
     if (presses_limit(&rows, load_float4(blocks.axis, at).x)) rows.drive = held_as(load_float4(blocks.axis, at).x);
     store_float4(duals.axis, at,
                  make_vec4(kept_multiplier(rows.drive, mass), kept_multiplier(rows.limit, mass),
                            kept_multiplier(rows.friction, mass), kept_multiplier(rows.speed, mass)));
+    joint_axis axis = load_axis(parameters, axes, k, i);
     store_float4(duals.axis_penalty, at,
-                 make_vec4(grown_row(rows.drive, penalty.x, mass), grown_row(rows.limit, penalty.y, mass),
-                           grown_row(rows.friction, penalty.z, mass), grown_row(rows.speed, penalty.w, mass)));
+                 make_vec4(grown_axis_row(rows.drive, penalty.x, mass, speed, springs_drive(&axis)),
+                           grown_axis_row(rows.limit, penalty.y, mass, speed, springs_limit(&axis)),
+                           grown_axis_row(rows.friction, penalty.z, mass, speed, 0u),
+                           grown_axis_row(rows.speed, penalty.w, mass, speed, 0u)));
+    pushes = pushes + push_of_axis(axis.kind, rows.drive.impulse, rows.limit.impulse);
   }
+  return pushes;
 }
 
 SHARED void avbd_joint_duals_item(GLOBAL const Parameters *parameters, read_joints joints, read_turning_bodies bodies,
-                                  read_joint_axes axes, GLOBAL const float4 *solver_velocity, write_joint_duals duals,
-                                  uint i)
+                                  read_joint_axes axes, GLOBAL const float4 *solver_velocity,
+                                  GLOBAL const float4 *avbd_target, write_joint_duals duals, uint i)
 {
   read_joint_blocks blocks = {axes.kind,
                               axes.row,
@@ -476,14 +602,19 @@ SHARED void avbd_joint_duals_item(GLOBAL const Parameters *parameters, read_join
   avbd_joint joint =
       load_avbd_joint(parameters, joints, bodies, solver_velocity, load_float4(duals.linear_left, i).w, i);
   held_rows rows = load_held_rows(parameters, blocks, i);
-  grow_held_rows(parameters, &joint, &rows);
+  side_changes changes = {load_change(avbd_target, joint.j.a), load_change(avbd_target, joint.j.b)};
+  grow_held_rows(parameters, &joint, &changes, &rows);
   store_float4(duals.linear, i, extend(take_three(rows.multiplier), R(0.0)));
   store_float4(duals.linear_penalty, i, extend(take_three(rows.penalty), R(0.0)));
   if (HAS_FEATURE(parameters, JOINT_FRAMES)) {
     store_float4(duals.angular, i, extend(take_three(rows.multiplier + 3), R(0.0)));
     store_float4(duals.angular_penalty, i, extend(take_three(rows.penalty + 3), R(0.0)));
   }
-  if (HAS_FEATURE(parameters, JOINT_AXES)) grow_axes(parameters, &joint, blocks, duals, i);
+  real push = length_of(take_three(rows.multiplier)); /* a blow may be new in this substep */
+  if (HAS_FEATURE(parameters, JOINT_AXES)) push = push + grow_axes(parameters, &joint, &changes, blocks, duals, i);
+  vec4 left = load_float4(duals.linear_left, i);
+  left.w = maximum(left.w, share_ahead(parameters, joint.j, push));
+  store_float4(duals.linear_left, i, left);
 }
 
 /* --- a step has succeeded --- */

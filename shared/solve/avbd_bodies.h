@@ -133,9 +133,8 @@ SHARED void add_held_rows(block_system *s, block_frame frame, GLOBAL const Param
 {
   for (uint k = 0; k < (HAS_FEATURE(parameters, JOINT_FRAMES) ? 6u : 3u); ++k) {
     if (!holds_row(joint->j, k)) continue;
-    axis_row at = held_row_of(joint, k);
-    avbd_row r =
-        held_row(rows->multiplier[k], rows->penalty[k], (at.at.value - rows->left[k]) * parameters->inverse_substep);
+    axis_row at = held_row_of(joint, rows, k);
+    avbd_row r = held_row(rows->multiplier[k], rows->penalty[k], at.at.value * parameters->inverse_substep);
     add_joint_row(s, frame, &at, r);
     *push = add_scaled(*push, at.at.direction, r.impulse);
   }
@@ -184,6 +183,13 @@ SHARED void add_joint(block_system *s, block_frame frame, GLOBAL const Parameter
                   joint.ahead * parameters->substep);
 }
 
+/* The share of a Newton step that a body with joints makes: a step may stop its turn, or add AVBD_LARGE_TURN, beyond
+ * which its rows are others. */
+SHARED real share_of_step(GLOBAL const Parameters *parameters, vec3 angular, vec3 turn)
+{
+  return share_within(length_of(turn), maximum(AVBD_LARGE_TURN * parameters->inverse_substep, length_of(angular)));
+}
+
 SHARED void avbd_body(GLOBAL const Parameters *parameters, read_blocks blocks, read_contacts contacts,
                       read_patches patches, read_duals duals, read_body_lists lists, read_joints joints,
                       read_joint_blocks joint_blocks, GLOBAL const uint *counts, GLOBAL float4 *solver_velocity,
@@ -214,9 +220,15 @@ SHARED void avbd_body(GLOBAL const Parameters *parameters, read_blocks blocks, r
     }
   }
   solve_block(&s);
-  m.linear = add_scaled(m.linear, make_vec3(s.vector[0], s.vector[1], s.vector[2]), frame.root_mass);
-  m.angular = add(m.angular,
-                  rotate(frame.axes, multiply(frame.root_moments, make_vec3(s.vector[3], s.vector[4], s.vector[5]))));
+  vec3 push = scale(make_vec3(s.vector[0], s.vector[1], s.vector[2]), frame.root_mass),
+       turn = rotate(frame.axes, multiply(frame.root_moments, make_vec3(s.vector[3], s.vector[4], s.vector[5])));
+  if (HAS_FEATURE(parameters, JOINTS) && lists.joint_start[body] != lists.joint_start[body + 1u]) {
+    real share = share_of_step(parameters, m.angular, turn);
+    push = scale(push, share);
+    turn = scale(turn, share);
+  }
+  m.linear = add(m.linear, push);
+  m.angular = add(m.angular, turn);
   store_velocity(solver_velocity, body, m);
 }
 

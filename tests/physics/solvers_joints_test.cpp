@@ -57,6 +57,14 @@ double way_of(World &world) { return world.precise_bodies()[0].position[0]; }
 double speed_along_x(World &world) { return world.precise_bodies()[0].linear_velocity[0]; }
 double spin_about_x(World &world) { return world.precise_bodies()[0].angular_velocity[0]; }
 
+double kinetic_and_potential_energy(World &world)
+{
+  double energy = world.statistics().kinetic_energy;
+  for (size_t i = 0; i < world.scene().bodies.size(); ++i)
+    energy += double(world.scene().bodies[i].mass) * gravity * world.precise_bodies()[i].position[1];
+  return energy;
+}
+
 /* Boxes of 2 kg that hang one below the other. */
 Scene hanging_chain(int boxes) { return hanging_boxes(boxes, 2); }
 
@@ -393,6 +401,143 @@ TEST_CASE("solvers with joints: people of avbd who fall from 20 m come to rest, 
   run(world, 400);
   CHECK(world.statistics().kinetic_energy < 0.05);
   CHECK(open_joints(world).max_distance < 0.002);
+}
+
+/* Three bars on four hinges, a parallelogram: cranks at the origin and 2 m beside it, in line, at 5 rad/s. */
+TEST_CASE("solvers with joints: a loop of avbd keeps its energy where its bars are in line", "[physics]")
+{
+  const double spin = 5;
+  Scene scene = empty_scene({0, 0, 0});
+  for (const double x : {0.0, 2.0}) {
+    Body &crank = add_body(scene, BodyType::dynamic, box_shape(0.5f, 0.05f, 0.05f), {x + 0.5, 0, 0});
+    crank.linear_velocity = {0, float(0.5 * spin), 0};
+    crank.angular_velocity = {0, 0, float(spin)};
+  }
+  add_body(scene, BodyType::dynamic, box_shape(1, 0.05f, 0.05f), {2, 0, 0}).linear_velocity = {0, float(spin), 0};
+  for (Body &body : scene.bodies) body.filter_mask = 0;
+  connect(scene, JointType::hinge, no_body, 0, {0, 0, 0}, Vector::UnitZ());
+  connect(scene, JointType::hinge, no_body, 1, {2, 0, 0}, Vector::UnitZ());
+  connect(scene, JointType::hinge, 0, 2, {1, 0, 0}, Vector::UnitZ());
+  connect(scene, JointType::hinge, 1, 2, {3, 0, 0}, Vector::UnitZ());
+  World world(scene, settings_for(Solver::avbd), in_order);
+  const double start = world.statistics().kinetic_energy;
+  run(world, 600);
+  CHECK(world.statistics().kinetic_energy == Approx(start).epsilon(0.01));
+}
+
+/* 0.18 rad a step, which the frames have from where both bodies turn as one. */
+TEST_CASE("solvers with joints: what spins freely on a joint of avbd does not gain energy", "[physics]")
+{
+  for (const JointType type : {JointType::ball, JointType::hinge, JointType::cylindrical, JointType::cone_twist}) {
+    CAPTURE(name_of_type(type));
+    const Vector spin(4, 6, 8), apart(1, 0.4, 0.2);
+    Scene scene = empty_scene({0, 0, 0});
+    for (const double k : {0.0, 1.0}) {
+      Body &body = add_body(scene, BodyType::dynamic, box_shape(0.5f, 0.3f, 0.4f), point_of(k * apart));
+      body.angular_velocity = vec3_of(spin);
+      body.linear_velocity = vec3_of(k * spin.cross(apart));
+      body.filter_mask = 0;
+    }
+    connect(scene, type, 0, 1, 0.5 * apart, {1, 1, 1});
+    World world(scene, settings_for(Solver::avbd), in_order);
+    const double start = world.statistics().kinetic_energy;
+    run(world, 400);
+    CHECK(world.statistics().kinetic_energy < 1.2 * start); /* four times of it before penalties knew their load */
+  }
+}
+
+/* Ten bars end to end, fixed to one another and to the world. */
+TEST_CASE("solvers with joints: a beam of avbd holds its own weight", "[physics]")
+{
+  Scene scene = empty_scene();
+  for (uint32_t k = 0; k < 10; ++k) {
+    add_body(scene, BodyType::dynamic, box_shape(0.5f, 0.1f, 0.15f), {k + 0.5, 0, 0}).filter_mask = 0;
+    scene.bodies.back().mass = 1;
+    connect(scene, JointType::fixed, k == 0 ? no_body : k - 1, k, {double(k), 0, 0});
+  }
+  World world(scene, settings_for(Solver::avbd), in_order);
+  double widest = 0;
+  for (int k = 0; k < 400; ++k) {
+    world.step();
+    widest = std::max(widest, open_joints(world).max_distance);
+  }
+  CHECK(widest < 0.01);
+  CHECK(std::abs(kinetic_and_potential_energy(world)) <
+        0.02 * 10 * gravity * 5); /* of what it has to give as it falls */
+}
+
+namespace {
+
+/* A bar of 1 kg that turns, with a hundred times its mass on the same joint at its end; the most energy that both have
+ * in 60 steps, J, of which they begin with less than 1. */
+double most_energy_of(Joint joint, uint32_t iterations)
+{
+  joint.position_b = {-0.5, 0, 0};
+  Scene scene = empty_scene();
+  for (uint32_t k = 0; k < 2; ++k) {
+    Body &body = add_body(scene, BodyType::dynamic, box_shape(0.5f, 0.1f, 0.15f), {0.5 + k, 0, 0});
+    body.mass = k == 0 ? 1 : 100;
+    if (k == 0) body.angular_velocity = {1, 2, 3};
+    body.filter_mask = 0;
+    joint.body_a = k == 0 ? no_body : 0;
+    joint.body_b = k;
+    joint.position_a = {k == 0 ? 0 : 0.5, 0, 0};
+    scene.joints.push_back(joint);
+  }
+  Settings settings = settings_for(Solver::avbd);
+  settings.iterations = iterations;
+  World world(scene, settings, in_order);
+  double most = 0;
+  for (int k = 0; k < 60; ++k) {
+    world.step();
+    most = std::max(most, kinetic_and_potential_energy(world));
+  }
+  return most;
+}
+
+} // namespace
+
+/* The axis of a cone is anywhere at 0. */
+TEST_CASE("solvers with joints: a cone of avbd whose angle must stay 0 gives no energy", "[physics]")
+{
+  Joint joint;
+  joint.type = JointType::cone_twist;
+  joint.rotations[0].lower = joint.rotations[0].upper = joint.rotations[1].upper = 0;
+  CHECK(most_energy_of(joint, 10) < 200); /* of some 2,000 J of the load as it falls */
+  CHECK(most_energy_of(joint, 50) < 200);
+}
+
+/* What snaps taut gives no more than the load as it falls by the lengths of both; it should give nothing. */
+TEST_CASE("solvers with joints: rods of avbd whose ends begin in one place do not throw what they hold", "[physics]")
+{
+  Joint joint;
+  joint.type = JointType::distance;
+  joint.directions[0].lower = joint.directions[0].upper = 1;
+  CHECK(most_energy_of(joint, 10) < 2 * 100 * gravity);
+  CHECK(most_energy_of(joint, 50) < 2 * 100 * gravity);
+}
+
+/* Eight metres and 3 rad: gaps close with 10 m/s, and so do angles with 10 rad/s. */
+TEST_CASE("solvers with joints: frames of avbd that begin far apart come together without a blow", "[physics]")
+{
+  for (const JointType type :
+       {JointType::ball, JointType::fixed, JointType::hinge, JointType::slider, JointType::universal}) {
+    CAPTURE(name_of_type(type));
+    Scene scene = empty_scene({0, 0, 0});
+    for (int k = 0; k < 2; ++k)
+      add_body(scene, BodyType::dynamic, box_shape(0.5f, 0.3f, 0.4f), {0, 0, 0}).filter_mask = 0;
+    connect(scene, type, 0, 1, {0.5, 0.2, 0.1}, {1, 1, 1});
+    scene.bodies[1].position = {6, -7, 4};
+    scene.bodies[1].orientation = turn_about(Vector(1, -2, 2).normalized(), 3);
+    World world(scene, settings_for(Solver::avbd), in_order);
+    double highest = 0;
+    for (int k = 0; k < 300; ++k) {
+      world.step();
+      highest = std::max(highest, fastest(world));
+    }
+    CHECK(highest < 12);
+    CHECK(open_joints(world).max_distance < 0.05);
+  }
 }
 
 /* A thousand times a link: 9,904 N at the top. */
