@@ -47,6 +47,13 @@ SHARED shape_uint zero_if_equal(shape_uint x, uint32_t none)
   return x;
 }
 
+SHARED uint bits_of_any(uint_lanes bits)
+{
+  uint any = 0;
+  for (int lane = 0; lane < TANDEM_LANES; ++lane) any |= bits.v[lane];
+  return any;
+}
+
 struct tree_place {
   uint_lanes item, stride;
   uint32_t first;    /* the item of lane 0 */

@@ -180,19 +180,30 @@ SHARED point_arms load_point_arms(const link_contact *c, read_patches patches, p
   return arms;
 }
 
+/* A point that is not used has no row. */
+SHARED void load_link_point(const link_contact *c, link_normals *s, read_patches patches, point_planes planes, uint k,
+                            uint_lanes i)
+{
+  vec3 n = c->shape.normal;
+  s->row[k] = no_force();
+  s->mass[k] = s->separation[k] = R(0.0);
+  mask used = load_point_mass(patches.points, planes, k, i) > R(0.0);
+  if (!any_of(used)) return;
+  point_arms arms = load_point_arms(c, patches, planes, k, i);
+  s->row[k] = choose_force(used, row_seen(&c->body, arms.a, arms.b, n), no_force());
+  s->mass[k] = choose(used, inverse_or_zero(response_seen(&c->body, s->row[k], s->row[k])), (real)R(0.0));
+  real separation = load_separation(patches.points, planes, k, i) + dot3(n, c->moved.translation) +
+                    (dot3(cross3(arms.b, n), c->moved.rotation_b) - dot3(cross3(arms.a, n), c->moved.rotation_a));
+  s->separation[k] = choose(used, separation, (real)R(0.0));
+}
+
 SHARED link_normals load_link_normals(const link_contact *c, read_patches patches, point_planes planes, vec4 impulses,
                                       uint_lanes i)
 {
   link_normals s;
-  vec3 n = c->shape.normal;
   for (uint k = 0; k < 4u; ++k) {
-    point_arms arms = load_point_arms(c, patches, planes, k, i);
-    s.row[k] = row_seen(&c->body, arms.a, arms.b, n);
-    mask used = load_point_mass(patches.points, planes, k, i) > R(0.0);
-    s.mass[k] = choose(used, inverse_or_zero(response_seen(&c->body, s.row[k], s.row[k])), (real)R(0.0));
+    load_link_point(c, &s, patches, planes, k, i);
     s.impulse[k] = component(impulses, k);
-    s.separation[k] = load_separation(patches.points, planes, k, i) + dot3(n, c->moved.translation) +
-                      (dot3(cross3(arms.b, n), c->moved.rotation_b) - dot3(cross3(arms.a, n), c->moved.rotation_a));
   }
   return s;
 }

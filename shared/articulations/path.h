@@ -218,15 +218,40 @@ CALLED void prepare_paths_if(mask wanted, const articulation *tree)
 }
 
 /* --- z -------------------------------------------------------------------------------------------------------- */
-/* For each freedom of a tree what has pushed it, and its row of the contact that pushes now. */
+/* Of freedoms, a bit each. */
 typedef struct {
-  uint count; /* of any lane, in whole chunks */
+  uint_lanes low, high;
+} freedom_set;
+
+SHARED mask has_freedom(freedom_set set, uint freedom)
+{
+  uint_lanes word = freedom < 32u ? set.low : set.high;
+  return ((word >> (uint_lanes)(freedom & 31u)) & (uint_lanes)1u) != 0u;
+}
+
+/* For each freedom of a tree what has pushed it. For each that moves a link of the contact that pushes now, its row;
+ * rows are numbered alike for neighbouring work-items, which then read memory of their own in order. */
+typedef struct {
+  uint count, rows;  /* freedoms of any lane, in whole chunks; rows of any lane */
+  freedom_set moved; /* the freedoms that have a row of their own */
   real change[TREE_FREEDOMS];
+  uint freedom[TREE_FREEDOMS]; /* of the row */
   spatial_motion row[TREE_FREEDOMS];
 } tree_freedoms;
 
+SHARED void list_freedoms(tree_freedoms *z, freedom_set moved)
+{
+  z->moved = moved;
+  z->rows = 0u;
+  for (uint left = bits_of_any(moved.low); left != 0u; left &= left - 1u) z->freedom[z->rows++] = lowest_bit(left);
+  for (uint left = bits_of_any(moved.high); left != 0u; left &= left - 1u)
+    z->freedom[z->rows++] = 32u + lowest_bit(left);
+}
+
 SHARED void begin_freedoms(const articulation *t, tree_freedoms *z)
 {
+  freedom_set none = {(uint_lanes)0u, (uint_lanes)0u};
+  list_freedoms(z, none);
   for (z->count = 0u; any_of((uint_lanes)z->count < t->freedoms); z->count += PATH_CHUNK)
     for (uint n = 0u; n < PATH_CHUNK; ++n) z->change[z->count + n] = R(0.0);
 }
@@ -234,7 +259,7 @@ SHARED void begin_freedoms(const articulation *t, tree_freedoms *z)
 /* The path of a link, from freedom to freedom. */
 typedef struct {
   uint_lanes k, entry;
-  uint_lanes freedoms[TREE_FREEDOMS / 32u]; /* a bit each */
+  freedom_set freedoms;
 } path_walk;
 
 SHARED path_walk walk_of_path_if(mask wanted, const articulation *t, uint_lanes k)
@@ -242,13 +267,14 @@ SHARED path_walk walk_of_path_if(mask wanted, const articulation *t, uint_lanes 
   path_walk w;
   w.k = k;
   w.entry = (uint_lanes)0u;
-  for (uint word = 0u; word < TREE_FREEDOMS / 32u; ++word)
-    w.freedoms[word] = choose(wanted, load_path_word(t, k, (uint)PATH_BITS + word), (uint_lanes)0u);
+  w.freedoms.low = choose(wanted, load_path_word(t, k, (uint)PATH_BITS), (uint_lanes)0u);
+  w.freedoms.high = choose(wanted, load_path_word(t, k, (uint)PATH_BITS + 1u), (uint_lanes)0u);
   return w;
 }
-SHARED mask moves_by(const path_walk *w, uint freedom)
+SHARED freedom_set freedoms_of_either(const path_walk *a, const path_walk *b)
 {
-  return ((w->freedoms[freedom / 32u] >> (uint_lanes)(freedom % 32u)) & (uint_lanes)1u) != 0u;
+  freedom_set set = {a->freedoms.low | b->freedoms.low, a->freedoms.high | b->freedoms.high};
+  return set;
 }
 /* Of the next freedom of the path; no motion where it is not wanted. */
 SHARED spatial_motion next_motion_if(mask wanted, const articulation *t, path_walk *w)

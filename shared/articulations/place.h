@@ -10,6 +10,9 @@
 #include "shared/articulations/joint_types.h"
 #include "shared/real.h"
 
+/* The number of the lowest bit of x, which has one. */
+SHARED uint lowest_bit(uint x) { return 31u - (uint)LEADING_ZEROS(x & (0u - x)); }
+
 #ifndef TANDEM_LANES
 typedef uint shape_uint; /* depends on the shape of a tree alone, as the number of a link does */
 typedef uint row_number; /* of a row in a table, of each lane */
@@ -45,6 +48,8 @@ SHARED shape_uint link_or_root(const tree_place *p, mask exists, shape_uint k)
   return exists ? k : 0u;
 }
 SHARED shape_uint zero_if_equal(shape_uint x, uint none) { return x == none ? 0u : x; }
+/* The bits that any lane has. */
+SHARED uint bits_of_any(uint_lanes bits) { return bits; }
 
 /* Row `row` of link k, of the trees whose rows begin at `block`; each has rows_of_block of what `block` counts, and
  * rows_of_link a link. */

@@ -117,7 +117,6 @@ SHARED void make_paths_if(mask wanted, const articulation *t, GLOBAL uint *tree_
  * in each other came apart with twenty to a thousand times the energy. */
 #define COMPLIANCE_WITHIN R(0.5)
 
-/* No motion for freedoms that move neither. All are added alike, so that the bits of a tree depend on no other one. */
 SHARED void see_freedom(relative_body *body, spatial_motion row, real change)
 {
   body->velocity.angular = add_scaled(body->velocity.angular, row.angular, change);
@@ -165,36 +164,71 @@ SHARED link_contact load_tree_contact(mask wanted, GLOBAL const Parameters *para
   return loaded;
 }
 
-/* The contact after all that the pass has pushed with, and its row of each freedom. */
+/* The links of a contact as the freedoms of their paths move them. */
+typedef struct {
+  path_walk seen, other;
+  symmetric6 softness;
+} seen_paths;
+
+SHARED seen_paths paths_of_contact(const articulation *t, const link_contact *c)
+{
+  mask is_b = c->body.is_b;
+  seen_paths p;
+  p.seen = walk_of_path_if(c->a.is_link | c->b.is_link, t, choose(is_b, c->b.k, c->a.k));
+  p.other = walk_of_path_if(is_b & c->a.is_link, t, c->a.k);
+  p.softness = zero_symmetric6();
+  return p;
+}
+
+/* What a freedom does to the two links. */
+typedef struct {
+  mask moves_seen, moves_other;
+  spatial_motion seen, other;
+} freedom_motions;
+
+SHARED freedom_motions next_motions(const articulation *t, seen_paths *p, uint freedom)
+{
+  freedom_motions m;
+  m.moves_seen = has_freedom(p->seen.freedoms, freedom);
+  m.moves_other = has_freedom(p->other.freedoms, freedom);
+  m.seen = next_motion_if(m.moves_seen, t, &p->seen);
+  m.other = next_motion_if(m.moves_other, t, &p->other);
+  return m;
+}
+
+/* A row of another lane's freedom does nothing, to the bit, so the bits of a tree depend on no other one. */
+SHARED void see_motions(link_contact *c, tree_freedoms *z, seen_paths *p, const freedom_motions *m, uint n)
+{
+  mask moves = m->moves_seen | m->moves_other;
+  z->row[n] = choose_motion(moves, motion_seen(&c->body, m->seen, m->other), no_motion());
+  see_freedom(&c->body, z->row[n], zero_if(!moves, z->change[z->freedom[n]]));
+  soften_if(m->moves_seen & m->moves_other, &c->body, &p->softness, m->seen, m->other);
+}
+
+/* The contact after all that the pass has pushed with, and its rows. Motions are read by some at once, so that a device
+ * waits for their memory once. */
 SHARED void see_by_paths(const articulation *t, link_contact *c, tree_freedoms *z)
 {
   see_velocities(c);
   c->body.velocity = add_motions(c->body.velocity, no_motion()); /* -0 becomes 0, to which adding 0 does nothing */
-  mask is_b = c->body.is_b;
-  path_walk seen = walk_of_path_if(c->a.is_link | c->b.is_link, t, choose(is_b, c->b.k, c->a.k));
-  path_walk other = walk_of_path_if(is_b & c->a.is_link, t, c->a.k);
-  symmetric6 softness = zero_symmetric6();
-  for (uint first = 0u; first < z->count; first += PATH_CHUNK) {
-    spatial_motion of_seen[PATH_CHUNK], of_other[PATH_CHUNK];
-    for (uint n = 0u; n < PATH_CHUNK; ++n) {
-      of_seen[n] = next_motion_if(moves_by(&seen, first + n), t, &seen);
-      of_other[n] = next_motion_if(moves_by(&other, first + n), t, &other);
-    }
-    for (uint n = 0u; n < PATH_CHUNK; ++n) {
-      z->row[first + n] = motion_seen(&c->body, of_seen[n], of_other[n]);
-      see_freedom(&c->body, z->row[first + n], z->change[first + n]);
-      mask both = moves_by(&seen, first + n) & moves_by(&other, first + n);
-      soften_if(both, &c->body, &softness, of_seen[n], of_other[n]);
-    }
+  seen_paths p = paths_of_contact(t, c);
+  list_freedoms(z, freedoms_of_either(&p.seen, &p.other));
+  for (uint first = 0u; first < z->rows; first += PATH_CHUNK) {
+    freedom_motions motions[PATH_CHUNK];
+    for (uint n = 0u; n < PATH_CHUNK; ++n)
+      if (first + n < z->rows) motions[n] = next_motions(t, &p, z->freedom[first + n]);
+    for (uint n = 0u; n < PATH_CHUNK; ++n)
+      if (first + n < z->rows) see_motions(c, z, &p, &motions[n], first + n);
   }
-  c->body.response = add_symmetric6(c->body.inverse, softness);
+  c->body.response = add_symmetric6(c->body.inverse, p.softness);
 }
 
 SHARED void push_by_paths_if(mask wanted, tree_freedoms *z, spatial_force f)
 {
-  for (uint freedom = 0u; freedom < z->count; ++freedom) {
-    real change = z->change[freedom] + power_of(f, z->row[freedom]);
-    z->change[freedom] = choose(wanted, change, z->change[freedom]);
+  for (uint n = 0u; n < z->rows; ++n) {
+    uint freedom = z->freedom[n];
+    real change = z->change[freedom] + power_of(f, z->row[n]);
+    z->change[freedom] = choose(wanted & has_freedom(z->moved, freedom), change, z->change[freedom]);
   }
 }
 
