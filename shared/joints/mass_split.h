@@ -11,7 +11,8 @@
  * joint after another, has nothing to do here. Iterations are extrapolated as those of contacts are.
  *
  * A soft row of parts leaks less than one of whole bodies, by as much as the parts are lighter, or it would be softer
- * in the end.
+ * in the end. But what leaks is also what takes impulses of earlier steps out of a body on which the iterations have
+ * not agreed. So there is a least leak, which is smaller the more of them there are (LEAST_LEAK_SUM).
  */
 #ifndef TANDEM_SHARED_JOINTS_MASS_SPLIT_H
 #define TANDEM_SHARED_JOINTS_MASS_SPLIT_H
@@ -26,11 +27,16 @@ SHARED real inverse_mass_of_side(GLOBAL const float4 *solver_velocity, uint_lane
   return MAY_OCCUR(JOINTS_TO_WORLD) ? zero_if(body == (uint_lanes)INDEX_NONE, inverse_mass) : inverse_mass;
 }
 
-/* Runs once a step: how many parts the bodies of a joint have, and what that leaves of the leak of its rows. */
+/* The least leaks of the iterations of a pass make this. With half of it nets of 30 x 30 balls gain energy with four
+ * iterations, and with none bodies of 24 joints do so with eight. */
+#define LEAST_LEAK_SUM R(2.0)
+
+/* Runs once a step: how many parts the bodies of a joint have, and what that leaves of the leak of its rows. rounds: of
+ * a pass. */
 SHARED void split_parts_of_joints_item(GLOBAL const uint *joint_a, GLOBAL const uint *joint_b,
                                        GLOBAL const float4 *solver_velocity, read_body_lists body_lists,
                                        GLOBAL const uint *split_static_constraints, GLOBAL float4 *split_joint_parts,
-                                       item_index i)
+                                       uint rounds, item_index i)
 {
   uint_lanes a = load_uint(joint_a, i), b = load_uint(joint_b, i);
   real mass_a = inverse_mass_of_side(solver_velocity, a), mass_b = inverse_mass_of_side(solver_velocity, b);
@@ -40,6 +46,7 @@ SHARED void split_parts_of_joints_item(GLOBAL const uint *joint_a, GLOBAL const 
   real of_parts = parts_a * mass_a + parts_b * mass_b;
   mask moves = of_parts > R(0.0);
   real leak = choose(moves, (mass_a + mass_b) / choose(moves, of_parts, (real)R(1.0)), (real)R(1.0));
+  leak = maximum(leak, minimum(LEAST_LEAK_SUM / (real)rounds, R(1.0)));
   store_float4(split_joint_parts, i, make_vec4(parts_a, parts_b, leak, R(0.0)));
 }
 

@@ -63,20 +63,22 @@ Block cross_of(const Vector &r)
   return m;
 }
 
-/* Velocities of balls, and one iteration over their ball joints from no impulses. */
+/* Velocities of balls, and rounds over their ball joints, which begin without impulses. */
 class SplitReference {
 public:
-  explicit SplitReference(const Scene &scene) : scene_(scene), v_(6 * int(scene.bodies.size()))
+  explicit SplitReference(const Scene &scene)
+      : scene_(scene), v_(6 * int(scene.bodies.size())), impulses_(scene.joints.size(), Vector::Zero())
   {
     for (size_t k = 0; k < scene.bodies.size(); ++k)
       v_.segment<6>(6 * int(k)) << vector_of(scene.bodies[k].linear_velocity),
           vector_of(scene.bodies[k].angular_velocity);
   }
-  /* share: of the impulse of a rigid joint. */
+  /* share: of the impulse of a rigid joint; the rest of what the joint has leaks away. */
   void iterate(double share)
   {
     Column change = Column::Zero(v_.size());
-    for (const Joint &joint : scene_.joints) {
+    for (size_t j = 0; j < scene_.joints.size(); ++j) {
+      const Joint &joint = scene_.joints[j];
       const bool to_world = joint.body_a == no_body || joint.body_b == no_body;
       Block response = Block::Zero();
       Vector closing = Vector::Zero();
@@ -85,7 +87,8 @@ public:
         response += parts * (Block::Identity() / mass(body) - cross_of(arm) * cross_of(arm) / inertia(body));
         closing += sign * (linear(body) + angular(body).cross(arm));
       }
-      const Vector impulse = -share * response.ldlt().solve(closing);
+      const Vector impulse = -share * response.ldlt().solve(closing) - (1 - share) * impulses_[j];
+      impulses_[j] += impulse;
       for (const auto &[body, arm, sign] : sides_of(joint)) {
         change.segment<3>(6 * int(body)) += sign * impulse / mass(body);
         change.segment<3>(6 * int(body) + 3) += sign * arm.cross(impulse) / inertia(body);
@@ -114,6 +117,7 @@ private:
 
   const Scene &scene_;
   Column v_;
+  std::vector<Vector> impulses_;
 };
 
 double momentum_drift(World &world, int steps)
@@ -137,7 +141,8 @@ bool runs(World &world, Kernel kernel)
 
 } // namespace
 
-/* A step so short that nothing moves: a pass with bias, of which softness takes a share, and one without. */
+/* A step so short that nothing moves: a pass with bias, of which softness takes a share, and one without. A pass of one
+ * iteration has two rounds. */
 TEST_CASE("jacobi: an iteration over joints is that of a reference in double", "[physics]")
 {
   const bool held = GENERATE(false, true);
@@ -151,8 +156,8 @@ TEST_CASE("jacobi: an iteration over joints is that of a reference in double", "
   const double h = substep_of(settings), w = 2 * pi * joint_hertz_of(settings),
                stiff = h * w * (2 * settings.joint_damping_ratio + h * w);
   SplitReference reference(scene);
-  reference.iterate(stiff / (1 + stiff));
-  reference.iterate(1);
+  for (const double share : {stiff / (1 + stiff), 1.0})
+    for (int round = 0; round < 2; ++round) reference.iterate(share);
   const auto states = world.precise_bodies();
   for (uint32_t k = 0; k < scene.bodies.size(); ++k) {
     CAPTURE(held, k);
@@ -234,7 +239,8 @@ TEST_CASE("jacobi: a body with a thousand joints holds them, and keeps momentum"
   CHECK(open_joints(world).max_distance < 0.005);
 }
 
-/* What a thousand balls and the hub weigh hangs on one joint, which is half of the hub. */
+/* What a thousand balls and the hub weigh hangs on one joint, which is half of the hub. With eight iterations the joint
+ * leaks a quarter of what a row of whole bodies would; with all of that it would open by 29.5 mm. */
 TEST_CASE("jacobi: a body with a thousand joints hangs on one", "[physics]")
 {
   Scene scene = hub_with_balls(1000, {0, -10, 0});
@@ -244,7 +250,25 @@ TEST_CASE("jacobi: a body with a thousand joints hangs on one", "[physics]")
   const JointReading reading = world.read_joint(world.id_of_joint(1000));
   CHECK(reading.force[1] == Approx(10 * (10 + 1000 * 0.05)).epsilon(0.01));
   CHECK(world.statistics().kinetic_energy < 1e-3);
-  CHECK(open_joints(world).max_distance < 0.005);
+  CHECK(open_joints(world).max_distance < 0.25 * 0.0295);
+}
+
+/* What iterations leave of the impulses of earlier steps must go, or it grows: without a least leak a hub with 24 arms
+ * had 800 J after 100 steps, and a net of 12 by 12 balls with two iterations 5 MJ after 600. */
+TEST_CASE("jacobi: a hub with many arms, and nets with few iterations, come to rest", "[physics]")
+{
+  Scene star = hub_with_balls(24, {0, -10, 0});
+  connect(star, JointType::fixed, no_body, 0, {0, 0, 0});
+  World hub(star, jacobi(), {"tbb:threads=2", {}, false});
+  run(hub, 300);
+  CHECK(hub.statistics().kinetic_energy < 1e-6);
+  for (const uint32_t iterations : {1u, 2u, 3u, 8u}) {
+    CAPTURE(iterations);
+    World net(load_scene("joint-grid:columns=12,rows=12"), jacobi(iterations), {"tbb:threads=2", {}, false});
+    run(net, 600);
+    CHECK(net.statistics().kinetic_energy < 1e-3);
+    CHECK(open_joints(net).max_distance < 0.01);
+  }
 }
 
 TEST_CASE("jacobi: kernels that split joints come with them, and no others solve them")

@@ -32,7 +32,7 @@ void MassSplit::prepare()
 void MassSplit::split_among_joints()
 {
   step_.run(Kernel::split_count_static_joints);
-  step_.run(Kernel::split_parts_of_joints);
+  step_.run(Kernel::split_parts_of_joints, {step_.settings().iterations * rounds_of_iteration()});
   run_rows(Kernel::split_masses_with_joints);
 }
 
@@ -49,10 +49,17 @@ void MassSplit::solve(uint32_t pass, uint32_t iterations)
   for (uint32_t iteration = 0; iteration < iterations; ++iteration) iterate(pass, iteration, iterations);
 }
 
+/* A pass of one round alone would not let a net of joints come to rest. */
+uint32_t MassSplit::rounds_of_iteration() const
+{
+  if (!has_joints_) return 1;
+  return step_.plan().joint_axes > 0 || step_.settings().iterations == 1 ? rounds_with_axes : 1;
+}
+
 void MassSplit::iterate(uint32_t pass, uint32_t iteration, uint32_t iterations)
 {
   if (!launched_) return;
-  const uint32_t rounds = has_joints_ && step_.plan().joint_axes > 0 ? rounds_with_axes : 1;
+  const uint32_t rounds = rounds_of_iteration();
   for (uint32_t round = iteration * rounds; round < (iteration + 1) * rounds; ++round)
     solve_round(pass, round + 1 < iterations * rounds ? round : 0);
 }

@@ -53,6 +53,7 @@ private:
   {}
   void run_rows(Kernel kernel, const Values &values = {}, const Slots &slots = {});
   void split_among_joints();
+  uint32_t rounds_of_iteration() const;
   void solve_round(uint32_t pass, uint32_t momentum);
   void sum_long_lists();
   void join_parts();
