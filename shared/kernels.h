@@ -19,7 +19,7 @@
 #include "shared/batching/kernels.h"
 #include "shared/joints/kernels.h"
 #include "shared/solve/kernels.h"
-#if !defined(TANDEM_LANES) || TANDEM_LANES == 8 /* the one width of trees: minicl/width.inc */
+#if !defined(TANDEM_LANES) || TANDEM_LANES >= 8 /* the widths of trees: minicl/width.inc */
 #include "shared/articulations/kernels.h"
 #endif
 #include "shared/integrate/kernels.h"
