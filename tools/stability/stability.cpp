@@ -312,19 +312,19 @@ int compare_backends(const StabilityOptions &options)
   return unequal ? 1 : 0;
 }
 
-int list_cases()
+int list_cases(const StabilityOptions &options)
 {
   std::string group;
-  for (const Case &each : stability::all_cases()) {
-    if (each.group != group) fmt::print("{}\n", group = each.group);
-    fmt::print("  {:26} {}\n", each.name, each.what);
+  for (const Case *each : chosen_cases(options)) {
+    if (each->group != group) fmt::print("{}\n", group = each->group);
+    fmt::print("  {:26} {}\n", each->name, each->what);
   }
   return 0;
 }
 
 int execute(const StabilityOptions &options)
 {
-  if (options.list) return list_cases();
+  if (options.list) return list_cases(options);
   return options.between.empty() ? run_cases(options) : compare_backends(options);
 }
 
@@ -366,7 +366,9 @@ Command stability_command(CLI::App &parser)
       ->type_name("NAME");
   command->add_flag("--bounds", options->bounds,
                     "list figure, bound and ratio of every check; status 1 if a ratio above ten states no derivation");
-  command->add_flag("--list", options->list, "name the cases")->excludes("--json")->excludes("--table-in");
+  command->add_flag("--list", options->list, "name the cases that are chosen")
+      ->excludes("--json")
+      ->excludes("--table-in");
   command->add_flag("--inexact", options->inexact, "accept devices that fail the exactness self-test");
   command->footer("Exit status: 0 if the default solver (or the first of --solvers) passes every case, 1 if not or if "
                   "memory did not suffice, 2 for bad use or an output that cannot be written.");

@@ -188,6 +188,9 @@ TEST_CASE("command: stability writes its contract, and says in its status whethe
   const Json chosen = json_of("stability --only flight,gravity-0 --groups motion --solvers soft-step" + out);
   REQUIRE(chosen["cases"].size() == 1);
   CHECK(chosen["cases"][0]["name"] == "flight");
+  const std::string listed = command("stability --list --only flight,gravity-0 --groups motion").out;
+  CHECK(listed.starts_with("motion\n  flight "));
+  CHECK(std::count(listed.begin(), listed.end(), '\n') == 2);
 }
 
 TEST_CASE("command: a table of stability goes between the marks of its name", "[command]")
