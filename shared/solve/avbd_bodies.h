@@ -1,5 +1,5 @@
-/* avbd_bodies.h - augmented vertex block descent: one body against all its constraints and joints; see
- * avbd.h and joints/avbd.h.
+/* avbd_bodies.h - augmented vertex block descent: one body against all its constraints and joints; see avbd.h and
+ * joints/avbd_rows.h.
  *
  * The solver makes a Newton step on the six velocities of a body, in coordinates y = M^(1/2) (w - v*) with angles along
  * its principal axes:
@@ -12,7 +12,7 @@
 #ifndef TANDEM_SHARED_SOLVE_AVBD_BODIES_H
 #define TANDEM_SHARED_SOLVE_AVBD_BODIES_H
 
-#include "shared/joints/avbd.h"
+#include "shared/joints/avbd_rows.h"
 #include "shared/solve/avbd.h"
 
 /* The lower triangle, row by row, and the right-hand side. */

@@ -8,7 +8,7 @@
  *   jacobi                 all joints and contacts at once (mass_split.h), couplings by their colours after them
  *   direct                 the passes of soft-step, and after them joints and contacts of small islands together
  *   xpbd                   from no impulses in each substep; what is open is closed whole, and then velocities
- *   avbd                   none of them: its bodies are moved against the rows of shared/joints/avbd.h
+ *   avbd                   none of them: its bodies are moved against the rows of shared/joints/avbd_rows.h
  */
 #pragma once
 
