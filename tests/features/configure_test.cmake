@@ -10,7 +10,7 @@ function(configure features)
 endfunction()
 
 configure("spheres;LOKCS")
-set(features "Features: SPHERE_SPHERE, [A-Z_, ]*, LOCKS, [A-Z_, ]*, AVBD[.]")
+set(features "Features: SPHERE_SPHERE, [A-Z_, ]*, LOCKS, [A-Z_, ]*, AVBD[A-Z_, ]*[.]")
 set(groups "Groups: spheres, boxes, [a-z_, ]*[.]")
 if(status EQUAL 0 OR NOT error MATCHES "\n *TANDEM_FEATURES: 'LOKCS' is no feature[.] ${features} ${groups}\n")
   message(FATAL_ERROR "status ${status} from a wrong name, and not one line with the right ones: ${error}")
