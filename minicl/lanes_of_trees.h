@@ -50,7 +50,7 @@ SHARED shape_uint zero_if_equal(shape_uint x, uint32_t none)
 SHARED uint bits_of_any(uint_lanes bits)
 {
   uint any = 0;
-  for (int lane = 0; lane < TANDEM_LANES; ++lane) any |= bits.v[lane];
+  for (int lane = 0; lane < width; ++lane) any |= bits.v[lane];
   return any;
 }
 
