@@ -232,7 +232,7 @@ SHARED mask has_freedom(freedom_set set, uint freedom)
 /* For each freedom of a tree what has pushed it. For each that moves a link of the contact that pushes now, its row;
  * rows are numbered alike for neighbouring work-items, which then read memory of their own in order. */
 typedef struct {
-  uint count, rows;  /* freedoms, and rows, of any lane */
+  uint count, rows;  /* freedoms of any lane, in whole chunks; rows of any lane */
   freedom_set moved; /* the freedoms that have a row of their own */
   real change[TREE_FREEDOMS];
   uint freedom[TREE_FREEDOMS]; /* of the row */
@@ -248,11 +248,13 @@ SHARED void list_freedoms(tree_freedoms *z, freedom_set moved)
     z->freedom[z->rows++] = 32u + lowest_bit(left);
 }
 
+/* In chunks, because an H200 takes 7% longer for the contacts of trees if the loop goes one by one. */
 SHARED void begin_freedoms(const articulation *t, tree_freedoms *z)
 {
   freedom_set none = {(uint_lanes)0u, (uint_lanes)0u};
   list_freedoms(z, none);
-  for (z->count = 0u; any_of((uint_lanes)z->count < t->freedoms); ++z->count) z->change[z->count] = R(0.0);
+  for (z->count = 0u; any_of((uint_lanes)z->count < t->freedoms); z->count += PATH_CHUNK)
+    for (uint n = 0u; n < PATH_CHUNK; ++n) z->change[z->count + n] = R(0.0);
 }
 
 /* The path of a link, from freedom to freedom. */
