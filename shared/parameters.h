@@ -42,6 +42,8 @@ typedef struct {
   PARAMETER_REAL joint_bias_rate;      /* 1/s, soft joint: gaps are closed at this rate; the three as for contacts */
   PARAMETER_REAL joint_mass_scale;
   PARAMETER_REAL joint_impulse_scale;
+  PARAMETER_REAL crowd_bias_rate; /* the same of joints that share a body, whose mass scale is 1 less the leak */
+  PARAMETER_REAL crowd_impulse_scale;
   PARAMETER_REAL spin_fall; /* m/s^2, half of gravity if spin limits what is left in place, else 0 */
   uint sleep_steps;        /* of rest, before a body may fall asleep; the first whole number */
   uint joined_pairs_first; /* the first entry of body_filter that holds pairs of bodies that do not collide */

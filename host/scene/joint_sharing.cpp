@@ -19,7 +19,7 @@ namespace {
  * how much of the motion of its joints a body has: errors of random stars grew from the motion of 1.96 joints on where
  * rotations are held, and from that of 3.5 where points are. */
 constexpr uint32_t least = 2, most = 6;
-constexpr double most_of_turning = 1.9, most_of_points = 3;
+constexpr double most_of_turning = 1.9, most_of_points = 2.5;
 
 bool is_between_pushed(const Scene &scene, const Joint &joint)
 {

@@ -61,6 +61,14 @@ SoftContact joint_softness(const Settings &settings, double h)
   return soft_contact(joint_hertz_of(settings), settings.joint_damping_ratio, h);
 }
 
+/* Stars of light bodies gained energy from 0.237 of the substep rate on (shared/joints/softness.h). Solvers that make
+ * more passes a substep, or take only a part of the error of each joint, need no softer ones. */
+SoftContact crowd_softness(const Settings &settings, double h)
+{
+  if (settings.solver != Solver::soft_step && settings.solver != Solver::direct) return joint_softness(settings, h);
+  return soft_contact(std::min(joint_hertz_of(settings), 0.19 / h), settings.joint_damping_ratio, h);
+}
+
 } // namespace
 
 Parameters parameters_of(const Scene &scene, const Settings &settings, Features features, float median)
@@ -90,6 +98,9 @@ Parameters parameters_of(const Scene &scene, const Settings &settings, Features 
   p.joint_bias_rate = joint.rate;
   p.joint_mass_scale = joint.mass_scale;
   p.joint_impulse_scale = joint.impulse_scale;
+  const SoftContact crowd = crowd_softness(settings, h);
+  p.crowd_bias_rate = crowd.rate;
+  p.crowd_impulse_scale = crowd.impulse_scale;
   p.push_speed = settings.push_speed;
   p.slop = settings.slop;
   p.slop_share = settings.slop_share;

@@ -90,6 +90,7 @@ SHARED axis_row row_of_tree_coupling(const articulation *t, const tree_coupling 
   r.response = r.shared_response = response_of_coupling(t, c);
   r.mass = inverse_if_positive(r.response);
   r.leak = R(1.0);
+  r.crowded = never_crowded();
   return r;
 }
 

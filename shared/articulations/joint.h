@@ -152,6 +152,7 @@ SHARED axis_row row_of_link_axis(const link_joint *j, const joint_coordinate *at
   r.shared_response = r.response;
   r.mass = inverse_if_positive(r.response);
   r.leak = R(1.0);
+  r.crowded = never_crowded();
   r.speed = speed_of_row(&j->ends, own);
   return r;
 }
@@ -222,9 +223,9 @@ SHARED vec3 solve_link_rows(GLOBAL const Parameters *parameters, const link_join
   symmetric3 k = response_of_block(j, b);
   vec3 rigid = solve_symmetric(rows_of_axes(locked, k), speed);
   if (pass != (uint)PASS_BIASED) return subtract(old, rigid);
-  soft_rows rows = soft_rows_of(parameters, open, LINK_CLOSING, R(1.0));
+  soft_rows rows = soft_rows_of(plain_softness(parameters), open, LINK_CLOSING, R(1.0));
   rigid = add(rigid, solve_symmetric(rows_of_axes(locked, response_while_closing(j, b, k)), rows.closing));
-  return subtract(subtract(old, scale(rigid, parameters->joint_mass_scale)), scale(old, rows.leak));
+  return subtract(subtract(old, scale(rigid, rows.mass_scale)), scale(old, rows.leak));
 }
 
 /* locked: the rows that count, as JOINT_X and so on. open: how far the joint is open along them. */

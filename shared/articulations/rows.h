@@ -67,6 +67,7 @@ SHARED axis_row row_of_link(const articulation *t, tree_link l, real change)
   r.response = r.shared_response = load_single_factor(t, l).response;
   r.mass = inverse_if_positive(r.response);
   r.leak = R(1.0);
+  r.crowded = never_crowded();
   r.speed = load_state(t, l.k, (uint)STATE_JOINT_VELOCITY).x + change;
   return r;
 }

@@ -15,6 +15,7 @@
 #define TANDEM_SHARED_JOINTS_AXES_H
 
 #include "shared/joints/coordinates.h"
+#include "shared/joints/softness.h"
 #include "shared/solve/pass.h"
 
 /* Joints close no faster than this, m/s and rad/s. Bodies that begin far from where a joint wants them would otherwise
@@ -63,7 +64,8 @@ typedef struct {
   joint_coordinate at;
   vec3 moment_a, moment_b;
   real response, shared_response, mass, speed;
-  real leak; /* of soft rows, as a share of that of whole bodies: joints/mass_split.h */
+  real leak;    /* of soft rows, as a share of that of whole bodies: joints/mass_split.h */
+  mask crowded; /* whether a body gives way to many joints: joints/softness.h */
 } axis_row;
 
 SHARED real response_along(joint_side s, vec3 direction, vec3 moment)
@@ -78,6 +80,7 @@ SHARED axis_row row_of_coordinate(joint j, joint_coordinate at)
   axis_row r;
   r.at = at;
   r.leak = R(1.0);
+  r.crowded = is_crowded(&j);
   r.moment_a = add(cross3(j.a.arm, r.at.direction), r.at.turn);
   r.moment_b = add(cross3(j.b.arm, r.at.direction), r.at.turn);
   real of_a = response_along(j.a, r.at.direction, r.moment_a), of_b = response_along(j.b, r.at.direction, r.moment_b);
@@ -172,10 +175,11 @@ SHARED real stop_change(GLOBAL const Parameters *parameters, const axis_row *r, 
     real relaxed = R(0.0) - r->mass * (r->speed + choose(ahead, open * parameters->inverse_substep, (real)R(0.0)));
     return choose(ahead & (old == R(0.0)), (real)R(0.0), relaxed);
   }
-  real push = parameters->joint_bias_rate * open, limited = share_of_closing(push);
+  joint_softness soft = joint_softness_of(parameters, r->crowded);
+  real push = soft.bias_rate * open, limited = share_of_closing(push);
   real bias = choose(ahead, open * parameters->inverse_substep, push * limited);
-  real share = choose(ahead, (real)R(1.0), (real)parameters->joint_mass_scale),
-       leak = choose(ahead, (real)R(0.0), parameters->joint_impulse_scale * maximum(limited, LEAST_LEAK));
+  real share = choose(ahead, (real)R(1.0), soft.mass_scale),
+       leak = choose(ahead, (real)R(0.0), soft.impulse_scale * maximum(limited, LEAST_LEAK));
   return R(0.0) - r->mass * share * (r->speed + bias) - leak * r->leak * old;
 }
 
@@ -183,9 +187,10 @@ SHARED real stop_change(GLOBAL const Parameters *parameters, const axis_row *r, 
 SHARED real hold_change(GLOBAL const Parameters *parameters, const axis_row *r, real open, real old, uint pass)
 {
   if (pass != PASS_BIASED) return R(0.0) - r->mass * r->speed;
-  real push = parameters->joint_bias_rate * open, limited = share_of_closing(push);
-  return R(0.0) - r->mass * parameters->joint_mass_scale * (r->speed + push * limited) -
-         parameters->joint_impulse_scale * maximum(limited, LEAST_LEAK) * r->leak * old;
+  joint_softness soft = joint_softness_of(parameters, r->crowded);
+  real push = soft.bias_rate * open, limited = share_of_closing(push);
+  return R(0.0) - r->mass * soft.mass_scale * (r->speed + push * limited) -
+         soft.impulse_scale * maximum(limited, LEAST_LEAK) * r->leak * old;
 }
 
 /* The coordinate as it is nearest to the range; a full turn more or less is the same angle. */

@@ -114,6 +114,7 @@ SHARED void add_side_to_row(axis_row *r, const coupled_side *s)
   real speed = dot3(s->impulse, s->side.velocity.linear) + dot3(s->moment, s->side.velocity.angular);
   r->response = r->response + response;
   r->shared_response = r->shared_response + s->side.sharing * response;
+  r->crowded = r->crowded | (s->acts & (s->side.sharing > R(1.0)));
   r->speed = r->speed + choose(s->acts, speed, (real)R(0.0));
 }
 
@@ -123,6 +124,7 @@ SHARED axis_row row_of_coupling(const coupling *c)
   axis_row r;
   r.response = r.shared_response = r.speed = R(0.0);
   r.leak = R(1.0);
+  r.crowded = never_crowded();
   add_side_to_row(&r, &c->aa);
   add_side_to_row(&r, &c->ab);
   add_side_to_row(&r, &c->ba);

@@ -18,34 +18,34 @@
 #include "shared/joints/block.h"
 #include "shared/joints/frames.h"
 
-/* What a pass with bias wants of rows: the velocity at which they close, and how much of their impulse leaks away. */
+/* What a pass with bias wants of rows: the velocity at which they close, which share of the impulse of rigid rows they
+ * take, and how much of their impulse leaks away. */
 typedef struct {
   vec3 closing;
-  real leak;
+  real mass_scale, leak;
 } soft_rows;
 
 /* Where the way is so long that its closing is limited, less leaks in proportion, because a leak that stayed the same
  * would let a heavy load draw the joint out for ever. Some leaks always: joints that contradict each other would
  * otherwise pull with any force. */
-SHARED soft_rows soft_rows_of(GLOBAL const Parameters *parameters, vec3 open, real fastest, real least_leak)
+SHARED soft_rows soft_rows_of(joint_softness soft, vec3 open, real fastest, real least_leak)
 {
-  vec3 closing = scale(open, parameters->joint_bias_rate);
+  vec3 closing = scale(open, soft.bias_rate);
   real squared = length_squared(closing);
   mask limited = squared > fastest * fastest;
   real share = choose(limited, fastest / square_root(choose(limited, squared, (real)R(1.0))), (real)R(1.0));
-  soft_rows rows = {scale(closing, share), parameters->joint_impulse_scale * maximum(share, least_leak)};
+  soft_rows rows = {scale(closing, share), soft.mass_scale, soft.impulse_scale * maximum(share, least_leak)};
   return rows;
 }
 
 /* The impulse of a block after a pass. k: the response of its rows; leak: as that of an axis; velocity, open: of the
  * rows; old: their impulse. */
-SHARED vec3 solve_rows(GLOBAL const Parameters *parameters, symmetric3 k, real leak, vec3 velocity, vec3 open, vec3 old,
-                       uint pass)
+SHARED vec3 solve_rows(joint_softness soft, symmetric3 k, real leak, vec3 velocity, vec3 open, vec3 old, uint pass)
 {
   if (pass != PASS_BIASED) return subtract(old, solve_symmetric(k, velocity));
-  soft_rows rows = soft_rows_of(parameters, open, JOINT_CLOSING, LEAST_LEAK);
+  soft_rows rows = soft_rows_of(soft, open, JOINT_CLOSING, LEAST_LEAK);
   vec3 rigid = solve_symmetric(k, add(velocity, rows.closing));
-  return subtract(subtract(old, scale(rigid, parameters->joint_mass_scale)), scale(old, rows.leak * leak));
+  return subtract(subtract(old, scale(rigid, rows.mass_scale)), scale(old, rows.leak * leak));
 }
 
 /* How far frame b is turned from frame a, in axes of a: about all three axes, or as the lean of the axis x. */
@@ -66,7 +66,7 @@ SHARED joint solve_angular_block(GLOBAL const Parameters *parameters, joint j, r
   symmetric3 of_a = scaled_tensor(j.a.inertia, j.a.sharing), of_b = scaled_tensor(j.b.inertia, j.b.sharing);
   symmetric3 k = rows_of_axes(locked, tensor_in_axes(f.axes, add_symmetric(of_a, of_b)));
   vec3 velocity = rotate_back(f.axes, subtract(j.b.velocity.angular, j.a.velocity.angular));
-  vec3 total = solve_rows(parameters, k, leak, along_axes(locked, velocity),
+  vec3 total = solve_rows(joint_softness_of(parameters, is_crowded(&j)), k, leak, along_axes(locked, velocity),
                           along_axes(locked, turn_between(f.relative, locked)), *impulse, pass);
   vec3 change = rotate(f.axes, subtract(total, *impulse));
   *impulse = choose3(wanted, total, *impulse);
@@ -87,7 +87,7 @@ SHARED joint solve_directions(GLOBAL const Parameters *parameters, joint j, real
       rows_of_axes(locked, tensor_in_axes(f.axes, add_symmetric(response_of_side(j.a), response_of_side(j.b))));
   vec3 gap = along_axes(locked, rotate_back(f.axes, j.gap));
   vec3 velocity = along_axes(locked, rotate_back(f.axes, closing_velocity(j)));
-  vec3 total = solve_rows(parameters, k, leak, velocity, gap, *impulse, pass);
+  vec3 total = solve_rows(joint_softness_of(parameters, is_crowded(&j)), k, leak, velocity, gap, *impulse, pass);
   vec3 change = rotate(f.axes, subtract(total, *impulse));
   *impulse = choose3(wanted, total, *impulse);
   return with_joint_velocities_if(wanted, j, apply_at_frame(j, change));
@@ -99,7 +99,8 @@ SHARED joint solve_point(GLOBAL const Parameters *parameters, joint j, real leak
   mask wanted = (j.modes & (uint)JOINT_XYZ) == (uint_lanes)(uint)JOINT_XYZ;
   if (!any_of(wanted)) return j;
   symmetric3 k = add_symmetric(response_of_side(j.a), response_of_side(j.b));
-  vec3 total = solve_rows(parameters, k, leak, closing_velocity(j), j.gap, *impulse, pass);
+  vec3 total =
+      solve_rows(joint_softness_of(parameters, is_crowded(&j)), k, leak, closing_velocity(j), j.gap, *impulse, pass);
   vec3 change = subtract(total, *impulse);
   *impulse = choose3(wanted, total, *impulse);
   return with_joint_velocities_if(wanted, j, apply_at_frame(j, change));

@@ -156,6 +156,45 @@ TEST_CASE("a star on a light or small body gains no energy, however few or many 
   }
 }
 
+/* Arms of 1 kg and a metre in a half circle beside a ball of 0.3 m that is fixed to the world. */
+static Scene laden_hub(JointType type, uint32_t arms, double mass)
+{
+  Scene scene = empty_scene();
+  Body &hub = add_body(scene, BodyType::dynamic, sphere_shape(0.3f), {0, 0, 0});
+  hub.mass = float(mass);
+  hub.filter_mask = 0;
+  connect(scene, JointType::fixed, no_body, 0, {0, 0, 0});
+  for (uint32_t i = 1; i <= arms; ++i) {
+    const double angle = M_PI * i / arms;
+    const Vector at(std::cos(angle), 0, std::sin(angle));
+    Body &arm = add_body(scene, BodyType::dynamic, sphere_shape(0.3f), point_of(at));
+    arm.mass = 1;
+    arm.filter_mask = 0;
+    connect(scene, type, 0, i, at);
+  }
+  return scene;
+}
+
+TEST_CASE("arms that are heavier than the hub which carries them come to rest", "[physics]")
+{
+  const JointType type = GENERATE(JointType::ball, JointType::fixed, JointType::universal);
+  const uint32_t arms = GENERATE(3u, 4u, 6u, 12u, 30u);
+  const double mass = GENERATE(8.0, 4.0, 2.0, 1.0, 0.5);
+  CAPTURE(name_of_type(type), arms, mass);
+  Settings settings;
+  settings.joint_hertz = GENERATE(60.0f, 1000.0f);
+  World world(laden_hub(type, arms, mass), settings, one_thread);
+  double fastest = 0;
+  for (int step = 0; step < 600; ++step) {
+    world.step();
+    fastest = std::max(fastest, kinetic_of(world));
+  }
+  /* Arms have no more energy than they get while joints give way by a tenth of a metre, and lose it. */
+  const double work = arms * gravity * 0.1;
+  CHECK(fastest < work);
+  CHECK(kinetic_of(world) < 0.01 * work);
+}
+
 TEST_CASE("joints whose frames begin ten metres apart close, and throw nothing", "[physics]")
 {
   const JointType type = GENERATE(from_range(std::begin(all_joint_types), std::end(all_joint_types)));

@@ -125,7 +125,7 @@ void Island::add_angular_block(uint32_t i, const joint &j, const joint_frames &f
   const uint32_t locked = j.modes >> JOINT_ANGULAR_SHIFT;
   if (locked == 0) return;
   const vec3 open = along_axes(locked, turn_between(f.relative, locked));
-  const vec3 closing = soft_rows_of(&rows_.parameters, open, JOINT_CLOSING, LEAST_LEAK).closing;
+  const vec3 closing = soft_rows_of(plain_softness(&rows_.parameters), open, JOINT_CLOSING, LEAST_LEAK).closing;
   for (uint32_t k = 0; k < 3; ++k) {
     if (!(locked >> k & 1)) continue;
     const vec3 axis = axis_of(f.axes, k);
@@ -140,7 +140,7 @@ void Island::add_linear_block(uint32_t i, const joint &j, const joint_frames &f)
   const uint32_t locked = j.modes & JOINT_XYZ;
   const bool whole = locked == JOINT_XYZ; /* in axes of the world */
   const vec3 open = whole ? j.gap : along_axes(locked, rotate_back(f.axes, j.gap));
-  const vec3 closing = soft_rows_of(&rows_.parameters, open, JOINT_CLOSING, LEAST_LEAK).closing;
+  const vec3 closing = soft_rows_of(plain_softness(&rows_.parameters), open, JOINT_CLOSING, LEAST_LEAK).closing;
   for (uint32_t k = 0; k < 3; ++k) {
     if (!(locked >> k & 1)) continue;
     const vec3 axis = whole ? unit_vector(k) : axis_of(f.axes, k);
