@@ -53,6 +53,7 @@ public:
     if (has(FEATURE_COUPLINGS)) run(Kernel::prepare_couplings);
     run_extensions(StepPoint::constraints);
     row_of(settings().solver).launch(*this);
+    if (plan().substeps.automatic && has(FEATURE_JOINTS)) run(Kernel::weigh_joints, {plan().substeps.starts});
     if (has(FEATURE_CONTINUOUS)) keep_out_of_walls();
     run_extensions(StepPoint::solved);
     if (plan().sleeping) find_drowsy_islands(*this);

@@ -34,6 +34,14 @@ float contact_hertz_with(const Settings &settings, uint32_t substeps)
   return std::max(settings.contact_hertz, round_to_float(stiffest_with(settings, substeps)));
 }
 
+/* Joints are as stiff as a quarter of the substep rate, which is what joints/load_rate.h reckons with. */
+float joint_hertz_with(const Settings &settings, uint32_t substeps)
+{
+  if (substeps <= fewest_automatic_substeps || settings.joint_hertz < Settings{}.joint_hertz)
+    return settings.joint_hertz;
+  return std::max(settings.joint_hertz, round_to_float(0.25 * substeps / double{settings.step}));
+}
+
 /* A soft contact of these substeps: its frequency, 1/s, and the angle that it passes in a substep. */
 struct Spring {
   double omega, angle;
@@ -127,6 +135,7 @@ Settings with_substeps(const Settings &settings, const SubstepChoice &choice)
   if (!choice.automatic) return chosen;
   chosen.contact_hertz = contact_hertz_with(settings, choice.now);
   chosen.contact_damping_ratio = contact_damping_with(settings, choice.now);
+  chosen.joint_hertz = joint_hertz_with(settings, choice.now);
   return chosen;
 }
 

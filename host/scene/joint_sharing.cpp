@@ -2,6 +2,7 @@
 #include "host/scene/joint_sharing.h"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 
 #include <tandem/round_to_float.h>
@@ -20,6 +21,8 @@ namespace {
  * rotations are held, and from that of 3.5 where points are. */
 constexpr uint32_t least = 2, most = 6;
 constexpr double most_of_turning = 1.9, most_of_points = 2.5;
+/* What the world holds by a joint answers later, as if it had so much more motion: stars on one and on two welds. */
+constexpr double motion_of_anchor = 0.5;
 
 bool is_between_pushed(const Scene &scene, const Joint &joint)
 {
@@ -35,9 +38,12 @@ bool uses_rotations(const Joint &joint)
   return held_by(joint).rotations != 0 || std::any_of(axes.begin(), axes.end(), is_rotation);
 }
 
-/* What impulses at the end of an arm, and moments, move: the sums over three axes. */
+/* What impulses at the end of an arm move, the sum over three axes; and what moments move, about each principal axis,
+ * whose sum would be that of the axis of a thin rod, about which nothing turns it. */
 struct Response {
-  double linear, angular;
+  double linear;
+  std::array<double, 3> angular;
+  double least_angular() const { return *std::min_element(angular.begin(), angular.end()); }
 };
 
 /* Moments of inertia are computed once a body, because those of meshes take long. */
@@ -52,7 +58,7 @@ public:
     const double of_x = arm[0] * arm[0], of_y = arm[1] * arm[1], of_z = arm[2] * arm[2];
     return {3 * double{inverse_mass_of(scene_.bodies[body])} + x * (of_y + of_z) + y * (of_x + of_z) +
                 z * (of_x + of_y),
-            x + y + z};
+            {x, y, z}};
   }
 
 private:
@@ -62,12 +68,22 @@ private:
 
 double share_of(double own, double other) { return own > 0 ? own / (own + other) : 0; }
 
+/* An arm may turn to where it is hardest to turn. */
+void add_shares_of_turning(std::array<double, 3> &sums, const Response &own, const Response &other)
+{
+  for (size_t axis = 0; axis < 3; ++axis) sums[axis] += share_of(own.angular[axis], other.least_angular());
+}
+
 } // namespace
 
 JointSharing::JointSharing(const Scene &scene) : scene_(scene), crowds_(scene.bodies.size())
 {
   for (const Joint &joint : scene.joints) {
-    if (!joint.enabled || !is_between_pushed(scene, joint)) continue;
+    if (!joint.enabled) continue;
+    if (!is_between_pushed(scene, joint)) {
+      add_anchor(joint);
+      continue;
+    }
     const bool turns = uses_rotations(joint);
     for (const uint32_t body : {joint.body_a, joint.body_b}) {
       ++crowds_[body].joints;
@@ -77,9 +93,15 @@ JointSharing::JointSharing(const Scene &scene) : scene_(scene), crowds_(scene.bo
   add_motions();
 }
 
+void JointSharing::add_anchor(const Joint &joint)
+{
+  const uint32_t held = can_be_pushed(scene_, joint.body_a) ? joint.body_a : joint.body_b;
+  if (held != no_body && held_by(joint).rotations != 0) ++crowds_[held].anchors;
+}
+
 void JointSharing::add_motions()
 {
-  const auto depends = [&](uint32_t body) { return crowds_[body].joints > least && crowds_[body].joints <= most; };
+  const auto depends = [&](uint32_t body) { return depends_on_motion(crowds_[body]); };
   Responses responses(scene_);
   for (const Joint &joint : scene_.joints) {
     if (!joint.enabled || !is_between_pushed(scene_, joint) || (!depends(joint.body_a) && !depends(joint.body_b)))
@@ -87,16 +109,22 @@ void JointSharing::add_motions()
     const Response a = responses.of(joint.body_a, joint.position_a), b = responses.of(joint.body_b, joint.position_b);
     crowds_[joint.body_a].linear += share_of(a.linear, b.linear);
     crowds_[joint.body_b].linear += share_of(b.linear, a.linear);
-    crowds_[joint.body_a].angular += share_of(a.angular, b.angular);
-    crowds_[joint.body_b].angular += share_of(b.angular, a.angular);
+    add_shares_of_turning(crowds_[joint.body_a].angular, a, b);
+    add_shares_of_turning(crowds_[joint.body_b].angular, b, a);
   }
 }
 
-bool JointSharing::shares(const Crowd &crowd) const
+bool JointSharing::depends_on_motion(const Crowd &crowd)
 {
-  if (crowd.joints <= least || crowd.joints > most) return crowd.joints > most;
+  return crowd.joints >= least && crowd.joints + crowd.anchors > least && crowd.joints <= most;
+}
+
+bool JointSharing::shares(const Crowd &crowd)
+{
+  if (!depends_on_motion(crowd)) return crowd.joints > most;
   if (!crowd.hold_rotations) return crowd.linear > most_of_points;
-  return std::max(crowd.linear, crowd.angular) > most_of_turning;
+  const double angular = *std::max_element(crowd.angular.begin(), crowd.angular.end());
+  return std::max(crowd.linear, angular) + motion_of_anchor * crowd.anchors > most_of_turning;
 }
 
 float JointSharing::of(const Joint &joint, uint32_t body) const

@@ -9,6 +9,7 @@
  */
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -26,12 +27,16 @@ public:
 private:
   /* The joints of a body with others that can be pushed. */
   struct Crowd {
-    uint32_t joints = 0;
+    uint32_t joints = 0, anchors = 0; /* anchors: that hold rotations to what cannot be pushed */
     bool hold_rotations = false;
-    double linear = 0, angular = 0; /* sums over the joints: which share of the motion is this body's */
+    /* Sums over the joints: which share of the motion is this body's, and of the turning about each of its axes. */
+    double linear = 0;
+    std::array<double, 3> angular{};
   };
   void add_motions();
-  bool shares(const Crowd &crowd) const;
+  void add_anchor(const Joint &joint);
+  static bool depends_on_motion(const Crowd &crowd);
+  static bool shares(const Crowd &crowd);
 
   const Scene &scene_;
   std::vector<Crowd> crowds_; /* by body */

@@ -6,6 +6,7 @@
 
 #include "shared/joints/bounce.h"
 #include "shared/joints/couplings.h"
+#include "shared/joints/load_rate.h"
 #include "shared/joints/mass_split.h"
 #include "shared/joints/nncg.h"
 #include "shared/joints/prepare.h"

@@ -21,6 +21,7 @@
 #ifndef TANDEM_SHARED_SETUP_STANDING_H
 #define TANDEM_SHARED_SETUP_STANDING_H
 
+#include "shared/load_rate.h"
 #include "shared/setup/contact.h"
 
 /* (2 pi 0.2)^2: the square of the frequency of the stiffest contacts, times that of a substep. */
@@ -34,14 +35,6 @@
 #define BRACED_REST R(2.0)
 /* With fewer they sway by this times g h^2: towers of any size by about 3 cm at 1/240 s and 1 cm at 1/480 s. */
 #define BRACED_SWAY R(200.0)
-/* The fewest substeps of a step, and the rate that contacts of 60 Hz, the softest, are the stiffest of. */
-#define FEWEST_SUBSTEPS R(4.0)
-#define SOFTEST_RATE R(300.0)
-/* Above every rate that matters: what is beyond the range of floats needs the most substeps. */
-#define HIGHEST_RATE R(1e30)
-/* A world that allows no depth at all is judged by the depths that others allow. */
-#define USUAL_SLOP R(0.005)
-#define USUAL_SLOP_SHARE R(0.05)
 /* A contact stands if the square of the cosine between normal and gravity is at least this. */
 #define STANDS R(0.5)
 
@@ -138,16 +131,6 @@ SHARED real rate_needed(GLOBAL const Parameters *parameters, const standing_pair
   return maximum(sinks, buckles);
 }
 
-/* Rates that the fewest substeps have are not noted, so that few contacts meet at the maximum. Returns what is. */
-SHARED mask note_rate(GLOBAL const Parameters *parameters, mask wanted, real rate, GLOBAL uint *counts)
-{
-  real fewest = minimum(FEWEST_SUBSTEPS / parameters->step, SOFTEST_RATE);
-  mask noted = wanted & (rate > fewest * fewest);
-  if (any_of(noted))
-    atomic_max_if(noted, counts, (uint_lanes)(uint)COUNT_LOAD_RATE, real_bits(minimum(rate, HIGHEST_RATE)));
-  return noted;
-}
-
 SHARED void note_braced(GLOBAL const Parameters *parameters, mask wanted, uint_lanes layers, uint layers_at_start,
                         real bearable, GLOBAL uint *counts)
 {
@@ -188,9 +171,8 @@ SHARED void weigh_standing_item(GLOBAL const Parameters *parameters, GLOBAL cons
   real load = pass_on(parameters, bears, &p, borne, layers, above, standing);
   load = choose(is_new, load, minimum(load, borne));
   real size = size_between(body_shape, load_uint(contacts.a, i), load_uint(contacts.b, i));
-  real slop = parameters->slop > R(0.0) ? parameters->slop : USUAL_SLOP;
+  real slop = bearable_way(parameters, size);
   real share = parameters->slop_share > R(0.0) ? parameters->slop_share : USUAL_SLOP_SHARE;
-  slop = choose(size > R(0.0), minimum(slop, share * size), slop);
   size = choose(size > R(0.0), size, (real)R(0.5));
   note_rate(parameters, bears, rate_needed(parameters, &p, load, layers, slop, size), counts);
   if (layers_at_start == 0u) return;

@@ -24,13 +24,14 @@ void require_same_choice(const std::string &name, const std::vector<std::string>
 
 TEST_CASE("parity on CPU: automatic substeps")
 {
-  for (const char *name : {"mass-ratio", "mixed:n=100", "pyramid:rows=8", "compounds:n=40", "tower", "tops"})
+  for (const char *name : {"mass-ratio", "mixed:n=100", "pyramid:rows=8", "compounds:n=40", "tower", "tops",
+                           "wrecking-ball", "ragdolls:n=2", "vehicle", "crane"})
     require_same_choice(name, cpu_backends(), 10);
 }
 
 TEST_CASE("parity on OpenCL: automatic substeps", "[opencl]")
 {
   require_pocl();
-  for (const char *name : {"mass-ratio", "mixed:n=60", "tower:levels=12", "tops"})
+  for (const char *name : {"mass-ratio", "mixed:n=60", "tower:levels=12", "tops", "wrecking-ball", "crane"})
     require_same_choice(name, {"serial", "cl:pocl"}, 6, build_of_all_features());
 }

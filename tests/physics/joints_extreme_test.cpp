@@ -195,6 +195,55 @@ TEST_CASE("arms that are heavier than the hub which carries them come to rest", 
   CHECK(kinetic_of(world) < 0.01 * work);
 }
 
+/* Thin rods that are welded to a ball by their ends, in directions all around it; the world holds the ball by welds. */
+static Scene star_of_rods(uint32_t rods, double mass, float radius, uint32_t welds)
+{
+  Scene scene = empty_scene({0, welds > 0 ? -float(gravity) : 0.0f, 0});
+  add_body(scene, BodyType::dynamic, sphere_shape(radius), {0, 0, 0}).mass = 1;
+  for (uint32_t i = 0; i < welds; ++i) connect(scene, JointType::fixed, no_body, 0, {0, 0, 0});
+  for (uint32_t i = 1; i <= rods; ++i) {
+    const double angle = 2 * M_PI * i / rods;
+    const Vector way(std::cos(angle), 0, std::sin(angle));
+    Body &rod = add_body(scene, BodyType::dynamic, box_shape(0.5f, 0.05f, 0.05f), point_of((radius + 0.5) * way));
+    rod.orientation = turn_about(Vector::UnitY(), -angle);
+    rod.mass = float(mass);
+    connect(scene, JointType::fixed, 0, i, radius * way);
+  }
+  for (Body &body : scene.bodies) body.filter_mask = 0;
+  return scene;
+}
+
+TEST_CASE("thin rods that are welded to a light ball stay at rest", "[physics]")
+{
+  const uint32_t rods = GENERATE(3u, 4u, 5u, 6u);
+  const float radius = GENERATE(0.05f, 0.1f, 0.2f);
+  const double mass = GENERATE(0.02, 0.1, 0.25, 0.5);
+  CAPTURE(rods, radius, mass);
+  Scene scene = star_of_rods(rods, mass, radius, 0);
+  scene.bodies.back().angular_velocity = {0, 0, 0.001f};
+  World world(scene, {}, one_thread);
+  const double start = kinetic_of(world);
+  for (int step = 0; step < 600; ++step) world.step();
+  CHECK(kinetic_of(world) < start);
+}
+
+TEST_CASE("thin rods on a ball that the world holds come to rest", "[physics]")
+{
+  const uint32_t rods = GENERATE(2u, 3u, 4u, 6u), welds = GENERATE(1u, 2u);
+  const float radius = GENERATE(0.1f, 0.3f);
+  const double mass = GENERATE(0.25, 1.0, 2.0);
+  CAPTURE(rods, welds, radius, mass);
+  World world(star_of_rods(rods, mass, radius, welds), {}, one_thread);
+  double fastest = 0;
+  for (int step = 0; step < 600; ++step) {
+    world.step();
+    fastest = std::max(fastest, kinetic_of(world));
+  }
+  const double work = rods * mass * gravity * 0.1;
+  CHECK(fastest < work);
+  CHECK(kinetic_of(world) < 0.001 * work);
+}
+
 TEST_CASE("joints whose frames begin ten metres apart close, and throw nothing", "[physics]")
 {
   const JointType type = GENERATE(from_range(std::begin(all_joint_types), std::end(all_joint_types)));
