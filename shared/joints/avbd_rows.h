@@ -9,6 +9,7 @@
  *   motor, friction       speed - target                                 the same, within h times the largest force
  *   largest speed         the speed beyond it                            the same, on one side alone
  *   spring and damper     (h k open + d (speed - target)) / (h k + d)    -(h^2 k + h d) c
+ *   soft limit            the same, of the way to the limit              the same, on one side alone
  *
  * Values are those at the end of the substep if both bodies keep their velocities, so rows follow any turn within it.
  * As with contacts, a share of 1 - AVBD_ALPHA of what is open when the substep begins is closed in it; the rest is
@@ -249,15 +250,28 @@ SHARED avbd_row friction_row(GLOBAL const Parameters *parameters, const axis_row
   return bounded_row(held_row(multiplier, penalty, r->speed), friction * parameters->substep);
 }
 
-/* A soft stop from below. One that is reached within the substep gives no more than it takes to arrive there. */
+/* A soft stop from below: it pushes by its spring's law as long as that pushes, whatever side of the stop the present
+ * velocities lead to, because its multiplier is what the iterations still have to take back. One that is reached within
+ * the substep gives no more than it takes to arrive there. A stop that has just let go stays stiff as in range_row. */
 SHARED avbd_row soft_stop_row(GLOBAL const Parameters *parameters, real multiplier, real penalty,
                               const joint_axis *axis, real open, real speed, uint arrives)
 {
-  if (open >= R(0.0)) return no_row();
-  avbd_row r = spring_row(parameters, multiplier, penalty, axis->limit_stiffness, axis->limit_damping, open, speed);
-  avbd_row hard = held_row(R(0.0), AVBD_LAST_PENALTY * r.stiffness, open * parameters->inverse_substep);
-  if (arrives != 0u && hard.impulse < r.impulse) return hard;
-  return r.impulse > R(0.0) ? r : no_row();
+  real pressing = maximum(multiplier, R(0.0));
+  avbd_row r = spring_row(parameters, pressing, penalty, axis->limit_stiffness, axis->limit_damping, open, speed);
+  avbd_row arriving = held_row(pressing, penalty, open * parameters->inverse_substep);
+  if (arrives != 0u && arriving.impulse < r.impulse) r = arriving;
+  if (r.impulse > R(0.0)) return r;
+  avbd_row gone = no_row();
+  if (pressing > R(0.0)) gone.stiffness = r.stiffness;
+  return gone;
+}
+
+/* Both stops of a soft range; at most one of them presses once the iterations have converged. */
+SHARED avbd_row soft_range_row(avbd_row up, avbd_row down)
+{
+  avbd_row r = {up.impulse - down.impulse, up.stiffness + down.stiffness,
+                up.holds != 0u ? up.violation : down.violation, up.holds | down.holds};
+  return r;
 }
 
 /* left: how far beyond its limits the coordinate may stay, negative below. */
@@ -273,8 +287,7 @@ SHARED avbd_row limit_row(GLOBAL const Parameters *parameters, const axis_row *r
   if (soft) {
     avbd_row up = soft_stop_row(parameters, multiplier, penalty, axis, from_lower, r->speed, left >= R(0.0)),
              down = soft_stop_row(parameters, -multiplier, penalty, axis, to_upper, -r->speed, left <= R(0.0));
-    down.impulse = -down.impulse;
-    return up.stiffness > R(0.0) ? up : down;
+    return soft_range_row(up, down);
   }
   if (held) return held_row(multiplier, penalty, (from_lower - left) * parameters->inverse_substep);
   return range_row(multiplier, penalty, (from_lower - minimum(left, R(0.0))) * parameters->inverse_substep,
