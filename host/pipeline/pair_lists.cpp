@@ -7,8 +7,9 @@
 
 namespace tandem {
 
-void list_pairs(Launcher &launcher, uint32_t capacity)
+void list_pairs(Launcher &launcher, uint32_t capacity, bool by_core)
 {
+  launcher.launch({Kernel::find_pair_kinds, {}, {by_core ? 1u : 0u}, COUNT_ZERO, COUNT_PAIRS, capacity});
   launcher.launch({Kernel::count_pair_kinds, {}, {}, COUNT_ZERO, COUNT_PAIRS, capacity});
   scan_table(launcher, Buffer::sort_histogram, Buffer::scan_sums, COUNT_PAIRS, TILE, PAIR_KIND_NONE + 1, capacity);
   launcher.launch({Kernel::start_pair_lists, {}, {}, COUNT_ZERO, COUNT_ONE, 1});

@@ -8,7 +8,7 @@
 namespace tandem {
 
 /* Writes pair_of_kind and the entries of counts from KIND_START on; `capacity` is the largest possible number of
- * pairs. */
-void list_pairs(Launcher &launcher, uint32_t capacity);
+ * pairs. by_core: body_core is there, and pairs that are far by it get no contacts and are of no kind. */
+void list_pairs(Launcher &launcher, uint32_t capacity, bool by_core);
 
 } // namespace tandem

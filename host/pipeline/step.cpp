@@ -110,7 +110,7 @@ private:
   {
     find_near_sleepers(*this);
     if (has(FEATURE_TREES)) find_leaf_pairs();
-    find_contacts();
+    find_contacts(true);
     run(Kernel::note_touched_sleepers);
     run(Kernel::keep_sleeper_counts);
   }
@@ -147,9 +147,9 @@ private:
   }
 
   /* Launches the kernels of shared/pairs.def for the kinds of pairs that the scene has. */
-  void find_contacts()
+  void find_contacts(bool with_sleepers = false)
   {
-    if (has(FEATURE_PAIR_KINDS)) list_pairs(launcher(), plan().capacity_pairs);
+    if (has(FEATURE_PAIR_KINDS)) list_pairs_of_kinds(with_sleepers);
     const bool branches = tests_pairs_side_by_side();
     uint32_t branch = 0;
     for (const PairTest &test : pair_tests) {
@@ -160,6 +160,14 @@ private:
       else collide(test.kernel, test.kind, branch);
       if (test.follower) collide(*test.follower, test.kind, branch);
     }
+  }
+
+  /* Neither parts of compounds nor sleepers have cores. */
+  void list_pairs_of_kinds(bool with_sleepers)
+  {
+    const bool by_core = has(FEATURE_CAPSULE_CAPSULE) && !has(FEATURE_TREES) && !with_sleepers;
+    if (by_core) run(Kernel::find_cores);
+    list_pairs(launcher(), plan().capacity_pairs, by_core);
   }
 
   /* The kernels that follow pairs of one kind leave most of a device idle. Opening branches costs as much as a kernel

@@ -89,18 +89,20 @@ SHARED void occupy_color(GLOBAL uint *body_colors, uint body, uint color)
   ATOMIC_OR(body_colors + 2u * body + (color >> 5), 1u << (color & 31u));
 }
 
+/* Pairs of which nothing is solved are not looked for, because nobody reads what they were. */
 SHARED void match_pairs_item(GLOBAL const Parameters *parameters, read_pairs pairs,
                              GLOBAL const float4 *manifold_normal, GLOBAL const uint *manifold_count, read_nodes nodes,
                              read_cached_pairs cached_pairs, GLOBAL uint *counts, GLOBAL uint *pair_cached,
                              GLOBAL uint *pair_color, GLOBAL uint *body_colors, uint keep, uint i)
 {
   uint a = pairs.a[i], b = pairs.b[i];
-  uint cached = find_cached(cached_pairs.start, cached_pairs.b, a, b);
-  if (HAS_FEATURE(parameters, TREES) && cached != INDEX_NONE && manifold_count[i] > 0u)
+  uint solved = manifold_count[i] > 0u && !has_trigger(parameters, nodes.flags, a, b) ? 1u : 0u;
+  uint cached = solved ? find_cached(cached_pairs.start, cached_pairs.b, a, b) : INDEX_NONE;
+  if (HAS_FEATURE(parameters, TREES) && cached != INDEX_NONE)
     cached = matching_manifold(manifold_normal, run_of_pair(pairs.a, pairs.b, counts[COUNT_PAIRS], i),
                                cached_pairs.normal, run_of_cached(cached_pairs.start, cached_pairs.b, a, cached), i);
   uint color = cached == INDEX_NONE || keep == 0u ? COLOR_NONE : cached_pairs.color[cached];
-  if (manifold_count[i] == 0u || has_trigger(parameters, nodes.flags, a, b)) color = COLOR_INACTIVE;
+  if (!solved) color = COLOR_INACTIVE;
   else if (color >= COLOR_LIMIT) color = COLOR_NONE;
   pair_cached[i] = cached;
   pair_color[i] = color;

@@ -162,7 +162,8 @@ SHARED void swap_candidate_lists_item(GLOBAL const uint *key_start, GLOBAL uint 
 
 /* --- the pair list -------------------------------------------------------------------------------------- */
 
-/* Moves the partners of body `a` whose bounds overlap its own to the start of its range. */
+/* Moves the partners of body `a` whose bounds overlap its own to the start of its range. Each partner is written and
+ * stays if it is counted, because a processor cannot foresee which of them overlap. */
 SHARED void filter_candidates_item(GLOBAL const float4 *bounds, GLOBAL const uint *candidate_start,
                                    GLOBAL const uint *candidate_b, GLOBAL const uint *counts,
                                    GLOBAL uint *candidate_found, GLOBAL uint *pair_start, uint a)
@@ -170,8 +171,11 @@ SHARED void filter_candidates_item(GLOBAL const float4 *bounds, GLOBAL const uin
   candidate_list kept = candidate_list_of(candidate_start, candidate_b, counts, candidate_side(counts));
   uint first = kept.start[a], end = kept.start[a + 1u], to = first;
   box_bounds own = load_bounds(bounds, a);
-  for (uint at = first; at < end; ++at)
-    if (bounds_overlap(own, load_bounds(bounds, kept.b[at]))) candidate_found[to++] = kept.b[at];
+  for (uint at = first; at < end; ++at) {
+    uint b = kept.b[at];
+    candidate_found[to] = b;
+    to += bounds_overlap_at_once(own, load_bounds(bounds, b)) ? 1u : 0u;
+  }
   pair_start[a] = to - first;
 }
 

@@ -26,6 +26,13 @@ SHARED int bounds_overlap(box_bounds p, box_bounds q)
          p.lower.z <= q.upper.z && q.lower.z <= p.upper.z;
 }
 
+/* The same without branches, for boxes that overlap about as often as not. */
+SHARED int bounds_overlap_at_once(box_bounds p, box_bounds q)
+{
+  return (p.lower.x <= q.upper.x) & (q.lower.x <= p.upper.x) & (p.lower.y <= q.upper.y) & (q.lower.y <= p.upper.y) &
+         (p.lower.z <= q.upper.z) & (q.lower.z <= p.upper.z);
+}
+
 /* A trigger meets every body that is not a trigger, if one of the two moves, even if only by its given velocity. Two
  * half-spaces have no test. */
 SHARED int trigger_meets(uint flags_a, uint flags_b)

@@ -9,6 +9,7 @@
 #include "shared/narrowphase/box_half_space.h"
 #include "shared/narrowphase/capsule_half_space.h"
 #include "shared/narrowphase/capsules.h"
+#include "shared/narrowphase/far_pairs.h"
 #include "shared/narrowphase/sphere_box.h"
 #include "shared/narrowphase/sphere_half_space.h"
 #include "shared/narrowphase/sphere_sphere.h"

@@ -19,23 +19,14 @@
 #define LISTS ((uint)PAIR_KIND_NONE + 1u)
 #define LIST_LOCAL_WORDS (((uint)PAIR_KIND_NONE + 1u) * 128u)
 
-SHARED uint kind_of_pair(GLOBAL const Parameters *parameters, read_part_pairs pairs, GLOBAL const uint *flags,
-                         uint pair)
-{
-  collider a = collider_of_pair(parameters, pairs.leaf, pairs.a[pair], pair, 0u),
-           b = collider_of_pair(parameters, pairs.leaf, pairs.b[pair], pair, 1u);
-  return pair_kind(flags[a.shape], flags[b.shape]);
-}
-
-/* kind_counts[kind * tiles + tile]: the number of pairs of that kind in the tile. */
-SHARED void count_pair_kinds_group(GLOBAL const Parameters *parameters, read_part_pairs pairs, GLOBAL const uint *flags,
-                                   GLOBAL const uint *counts, GLOBAL uint *kind_counts, LOCAL uint *local_memory,
-                                   uint group)
+/* kinds: of each pair (far_pairs.h). kind_counts[kind * tiles + tile]: the number of pairs of that kind in the tile. */
+SHARED void count_pair_kinds_group(GLOBAL const uint *counts, GLOBAL const uint *kinds, GLOBAL uint *kind_counts,
+                                   LOCAL uint *local_memory, uint group)
 {
   const uint n = counts[COUNT_PAIRS], count = items_in_tile(n, TILE, group), tiles = units_of(n, TILE);
   if (count == 0u) return;
   FOR_EACH_ITEM(kind, LISTS) local_memory[kind] = 0u;
-  FOR_EACH_ITEM(k, count) LOCAL_ADD(local_memory + kind_of_pair(parameters, pairs, flags, group * TILE + k), 1u);
+  FOR_EACH_ITEM(k, count) LOCAL_ADD(local_memory + kinds[group * TILE + k], 1u);
   FOR_EACH_ITEM(kind, LISTS) kind_counts[kind * tiles + group] = local_memory[kind];
 }
 
@@ -49,26 +40,24 @@ SHARED void start_pair_lists_item(GLOBAL const uint *kind_places, GLOBAL uint *c
 
 /* chunks: the number of pairs of each kind in a chunk. The CPU has a single chunk, which starts where the tile does and
  * needs no counts. */
-SHARED void count_strips(GLOBAL const Parameters *parameters, read_part_pairs pairs, GLOBAL const uint *flags,
-                         uint first, uint count, LOCAL uint *chunks)
+SHARED void count_strips(GLOBAL const uint *kinds, uint first, uint count, LOCAL uint *chunks)
 {
   FOR_EACH_ITEM(k, LISTS * LIST_STRIPS) chunks[k] = 0u;
   if (LIST_STRIPS == 1u) return;
   FOR_EACH_ITEM(s, LIST_STRIPS)
   {
     for (uint k = s * LIST_STRIP; k < (s + 1u) * LIST_STRIP && k < count; ++k)
-      ++chunks[kind_of_pair(parameters, pairs, flags, first + k) * LIST_STRIPS + s];
+      ++chunks[kinds[first + k] * LIST_STRIPS + s];
   }
 }
 
-SHARED void list_pairs_group(GLOBAL const Parameters *parameters, read_part_pairs pairs, GLOBAL const uint *flags,
-                             GLOBAL const uint *counts, GLOBAL const uint *kind_places, GLOBAL uint *pair_of_kind,
-                             LOCAL uint *local_memory, uint group)
+SHARED void list_pairs_group(GLOBAL const uint *counts, GLOBAL const uint *kinds, GLOBAL const uint *kind_places,
+                             GLOBAL uint *pair_of_kind, LOCAL uint *local_memory, uint group)
 {
   const uint n = counts[COUNT_PAIRS], first = group * TILE, count = items_in_tile(n, TILE, group);
   const uint tiles = units_of(n, TILE);
   if (count == 0u) return;
-  count_strips(parameters, pairs, flags, first, count, local_memory);
+  count_strips(kinds, first, count, local_memory);
   FOR_EACH_ITEM(kind, LISTS)
   {
     uint place = kind_places[kind * tiles + group];
@@ -81,7 +70,7 @@ SHARED void list_pairs_group(GLOBAL const Parameters *parameters, read_part_pair
   FOR_EACH_ITEM(s, LIST_STRIPS)
   {
     for (uint k = s * LIST_STRIP; k < (s + 1u) * LIST_STRIP && k < count; ++k)
-      pair_of_kind[local_memory[kind_of_pair(parameters, pairs, flags, first + k) * LIST_STRIPS + s]++] = first + k;
+      pair_of_kind[local_memory[kinds[first + k] * LIST_STRIPS + s]++] = first + k;
   }
 }
 

@@ -4,6 +4,7 @@
  *   pairs          B S B X S S B            kinds of pairs.def
  *   pair_of_kind   1 4 5 | 0 2 6 | 3        KIND_START: 0, 3, 6, 7
  *
+ *   find_pair_kinds    tells the kind of each pair (far_pairs.h)
  *   count_pair_kinds   counts the pairs of each kind in a tile
  *   (scan)             gives each tile the place of its pairs of a kind, kind by kind, tile by tile
  *   start_pair_lists   stores where each kind starts
@@ -15,8 +16,8 @@
  * A scene whose pairs hardly mix has no lists (host/scene/specialise.cpp decides). An item is then a pair, and a kernel
  * skips those of other kinds. handled_pair() hides the difference.
  *
- * The kernels that make the lists read a pair's bodies twice and write one word. A radix sort would move twice the
- * bytes, for its keys and values.
+ * The kernels that make the lists read a pair's kind twice and write one word. A radix sort would move twice the bytes,
+ * for its keys and values.
  *
  * In a scene with trees the kind of a pair is that of the parts that take part, so a capsule or ball of a compound has
  * the tests of capsules. Such a scene has lists.

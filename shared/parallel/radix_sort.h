@@ -15,6 +15,9 @@
  *
  * The rank of a key in its tile is the sum: smaller digits + equal digits in earlier chunks + earlier ones in its
  * chunk.
+ *
+ * A single thread needs no ranks, because it meets the keys in their order: it writes each of them to the next place of
+ * its digit (sort_starts_alone).
  */
 #ifndef TANDEM_SHARED_PARALLEL_RADIX_SORT_H
 #define TANDEM_SHARED_PARALLEL_RADIX_SORT_H
@@ -176,12 +179,28 @@ SHARED void sort_place64(GLOBAL const ulong *keys, GLOBAL const uint *offsets, u
   sort_rank_tile(offsets, n, count, bits, local_memory, group);
 }
 
+/* Whether one thread sorts a tile alone. */
+#define SORTS_ALONE (SORT_CHUNKS == 1u)
+
+/* starts: where the next key of each digit goes. */
+SHARED void sort_starts_alone(GLOBAL const uint *offsets, uint n, uint bits, LOCAL uint *starts, uint group)
+{
+  const uint tiles = units_of(n, SORT_TILE);
+  for (uint d = 0u; d < 1u << bits; ++d) starts[d] = offsets[d * tiles + group];
+}
+
 SHARED void sort_scatter_group(GLOBAL const uint *counts, GLOBAL const uint *keys, GLOBAL const uint *offsets,
                                GLOBAL uint *sorted_keys, uint length, uint shift, uint bits, LOCAL uint *local_memory,
                                uint group)
 {
   const uint n = counts[length], count = items_in_tile(n, SORT_TILE, group);
   if (count == 0u) return;
+  if (SORTS_ALONE) {
+    sort_starts_alone(offsets, n, bits, local_memory, group);
+    for (uint i = group * SORT_TILE; i < group * SORT_TILE + count; ++i)
+      sorted_keys[local_memory[sort_digit(keys[i], shift, bits)]++] = keys[i];
+    return;
+  }
   sort_place(keys, offsets, n, count, shift, bits, local_memory, group);
   sort_move(keys, sorted_keys, group * SORT_TILE, count, local_memory);
 }
@@ -192,6 +211,15 @@ SHARED void sort_scatter_pairs_group(GLOBAL const uint *counts, GLOBAL const uin
 {
   const uint n = counts[length], count = items_in_tile(n, SORT_TILE, group);
   if (count == 0u) return;
+  if (SORTS_ALONE) {
+    sort_starts_alone(offsets, n, bits, local_memory, group);
+    for (uint i = group * SORT_TILE; i < group * SORT_TILE + count; ++i) {
+      const uint place = local_memory[sort_digit(keys[i], shift, bits)]++;
+      sorted_keys[place] = keys[i];
+      sorted_values[place] = values[i];
+    }
+    return;
+  }
   sort_place(keys, offsets, n, count, shift, bits, local_memory, group);
   sort_move(keys, sorted_keys, group * SORT_TILE, count, local_memory);
   sort_move(values, sorted_values, group * SORT_TILE, count, local_memory);
@@ -203,6 +231,12 @@ SHARED void sort_scatter64_group(GLOBAL const uint *counts, GLOBAL const ulong *
 {
   const uint n = counts[length], count = items_in_tile(n, SORT_TILE, group);
   if (count == 0u) return;
+  if (SORTS_ALONE) {
+    sort_starts_alone(offsets, n, bits, local_memory, group);
+    for (uint i = group * SORT_TILE; i < group * SORT_TILE + count; ++i)
+      sorted_keys[local_memory[sort_digit64(keys[i], shift, bits)]++] = keys[i];
+    return;
+  }
   sort_place64(keys, offsets, n, count, shift, bits, local_memory, group);
   sort_move64(keys, sorted_keys, group * SORT_TILE, count, local_memory);
 }
@@ -214,6 +248,15 @@ SHARED void sort_scatter64_pairs_group(GLOBAL const uint *counts, GLOBAL const u
 {
   const uint n = counts[length], count = items_in_tile(n, SORT_TILE, group);
   if (count == 0u) return;
+  if (SORTS_ALONE) {
+    sort_starts_alone(offsets, n, bits, local_memory, group);
+    for (uint i = group * SORT_TILE; i < group * SORT_TILE + count; ++i) {
+      const uint place = local_memory[sort_digit64(keys[i], shift, bits)]++;
+      sorted_keys[place] = keys[i];
+      sorted_values[place] = values[i];
+    }
+    return;
+  }
   sort_place64(keys, offsets, n, count, shift, bits, local_memory, group);
   sort_move64(keys, sorted_keys, group * SORT_TILE, count, local_memory);
   sort_move(values, sorted_values, group * SORT_TILE, count, local_memory);

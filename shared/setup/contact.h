@@ -225,12 +225,9 @@ typedef struct {
   real radius;
 } friction_patch;
 
-SHARED friction_patch patch_of(GLOBAL const float4 *manifold_points, uint_lanes pair, point_planes planes,
-                               uint_lanes points, real near)
+SHARED friction_patch patch_of(const vec4 *point, uint_lanes points, real near)
 {
-  vec4 point[4];
   real weight[4], sum = R(0.0);
-  for (uint k = 0; k < 4u; ++k) point[k] = load_manifold_point(manifold_points, planes, k, pair);
   mask none = point[0].w > near;
   for (uint k = 1; k < 4u; ++k) none = none & ((points <= (uint_lanes)k) | (point[k].w > near));
   for (uint k = 0; k < 4u; ++k) {
@@ -241,9 +238,11 @@ SHARED friction_patch patch_of(GLOBAL const float4 *manifold_points, uint_lanes 
   vec3 center = choose3(weight[0] > R(0.0), xyz(point[0]), make_vec3(R(0.0), R(0.0), R(0.0)));
   for (uint k = 1; k < 4u; ++k) center = choose3(weight[k] > R(0.0), add(center, xyz(point[k])), center);
   friction_patch patch = {scale(center, share), R(0.0)};
-  for (uint k = 0; k < 4u; ++k)
+  for (uint k = 0; k < 4u; ++k) {
+    if (!any_of(weight[k] > R(0.0))) continue;
     patch.radius =
         patch.radius + choose(weight[k] > R(0.0), length_of(subtract(xyz(point[k]), patch.center)), (real)R(0.0));
+  }
   patch.radius = patch.radius * share;
   return patch;
 }
@@ -347,11 +346,24 @@ typedef struct {
   mask near;
 } points_setup;
 
+/* Of a point that no lane uses. */
+SHARED void leave_point_out(const contact_setup *s, uint k, point_planes planes, points_setup *points,
+                            GLOBAL memory_real *constraint_points)
+{
+  store_point_if(s->wanted, constraint_points, planes, k, s->at, make_vec3(R(0.0), R(0.0), R(0.0)), R(0.0), R(0.0));
+  points->impulse[k] = R(0.0);
+  points->target_velocity[k] = R(-1.0);
+}
+
 SHARED void prepare_point(GLOBAL const Parameters *parameters, const contact_setup *s, const old_impulses *old,
                           vec4 point, uint k, point_planes planes, points_setup *points,
                           GLOBAL memory_real *constraint_points)
 {
   mask used = s->points > (uint_lanes)k;
+  if (!any_of(used)) {
+    leave_point_out(s, k, planes, points, constraint_points);
+    return;
+  }
   vec3 arm_a = xyz(point), arm_b = subtract(arm_a, s->bodies.offset), none = make_vec3(R(0.0), R(0.0), R(0.0));
   real mass = choose(used, normal_mass(s->bodies, arm_a, arm_b, s->normal), (real)R(0.0));
   real speed = dot3(s->normal, relative_velocity(s->bodies, arm_a, arm_b));
@@ -397,9 +409,9 @@ SHARED vec4 kept_friction(GLOBAL const Parameters *parameters, const contact_set
 }
 
 SHARED void prepare_friction(GLOBAL const Parameters *parameters, const contact_setup *s, const old_impulses *old,
-                             GLOBAL const float4 *manifold_points, point_planes planes, write_constraints constraints)
+                             const vec4 *point, write_constraints constraints)
 {
-  friction_patch patch = patch_of(manifold_points, s->pair, planes, s->points, parameters->speculative_distance);
+  friction_patch patch = patch_of(point, s->points, parameters->speculative_distance);
   vec3 center_a = patch.center, center_b = subtract(center_a, s->bodies.offset);
   real friction = friction_between(s, center_a, center_b);
   vec3 offset = add(s->bodies.offset, subtract(s->arms_back.a, s->arms_back.b));
@@ -447,11 +459,13 @@ SHARED void prepare_contacts_item(GLOBAL const Parameters *parameters, GLOBAL co
   points_setup points;
   points.deepest = R(0.0);
   points.near = s.bodies.a == s.bodies.b; /* none yet */
-  for (uint k = 0; k < 4u; ++k)
-    prepare_point(parameters, &s, &old, load_manifold_point(manifolds.points, planes, k, pair), k, planes, &points,
-                  constraints.points);
+  vec4 point[4];
+  for (uint k = 0; k < 4u; ++k) {
+    point[k] = any_of(s.points > (uint_lanes)k) ? load_manifold_point(manifolds.points, planes, k, pair) : no_point();
+    prepare_point(parameters, &s, &old, point[k], k, planes, &points, constraints.points);
+  }
   mark_borne(&s, points.near, body_falls);
-  prepare_friction(parameters, &s, &old, manifolds.points, planes, constraints);
+  prepare_friction(parameters, &s, &old, point, constraints);
 
   store_listed_uint_if(s.wanted, constraints.pair, at, pair);
   store_listed_uint_if(s.wanted, constraints.a, at, s.bodies.a);

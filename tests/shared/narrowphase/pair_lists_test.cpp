@@ -94,7 +94,8 @@ PairLists pairs_on_backend(const std::string &name, const Pairs &pairs)
   const auto count = static_cast<uint32_t>(pairs.a.size()), capacity = count + 5;
   const std::unique_ptr<Backend> backend = make_backend(name);
   Memory memory;
-  std::vector<Kernel> kernels = {Kernel::count_pair_kinds, Kernel::start_pair_lists, Kernel::list_pairs};
+  std::vector<Kernel> kernels = {Kernel::find_pair_kinds, Kernel::count_pair_kinds, Kernel::start_pair_lists,
+                                 Kernel::list_pairs};
   for (size_t k = 0; k < kernel_count; ++k)
     if (row_of(kernel_at(k)).stage == Stage::parallel) kernels.push_back(kernel_at(k));
   backend->prepare(pairs.features(), kernels);
@@ -105,7 +106,7 @@ PairLists pairs_on_backend(const std::string &name, const Pairs &pairs)
                     .pairs = capacity,
                     .cells = 1024,
                     .features = pairs.features()};
-  for (Buffer buffer : {Buffer::pair_of_kind, Buffer::sort_histogram, Buffer::scan_sums})
+  for (Buffer buffer : {Buffer::pair_of_kind, Buffer::sort_key, Buffer::sort_histogram, Buffer::scan_sums})
     memory.resize(buffer, bytes_of(buffer, sizes));
   std::vector<uint32_t> counts(COUNT_TOTAL);
   counts[COUNT_ONE] = 1;
@@ -120,7 +121,7 @@ PairLists pairs_on_backend(const std::string &name, const Pairs &pairs)
   set_words(memory, Buffer::pair_b, pairs.b);
   set_words(memory, Buffer::body_flags, pairs.flags);
   DirectLauncher launcher(memory, *backend);
-  list_pairs(launcher, capacity);
+  list_pairs(launcher, capacity, false);
   PairLists lists;
   lists.starts = memory.read<uint32_t>(Buffer::counts, PAIR_KIND_NONE + 1, KIND_START);
   lists.pairs = memory.read<uint32_t>(Buffer::pair_of_kind, count);

@@ -151,6 +151,24 @@ public:
     return outputs;
   }
 
+  /* The kinds of the pairs as find_pair_kinds tells them, which clears all outputs; none for those that are far by
+   * their cores. */
+  std::vector<uint32_t> kinds_by_core(Outputs &outputs, const minicl::KernelTable &table = minicl::scalar_kernels)
+  {
+    pad();
+    while (bodies_.size() % 16 != 0) add_body(bodies_.front());
+    const auto pairs = static_cast<uint32_t>(size()), bodies = static_cast<uint32_t>(bodies_.size());
+    cores_.assign(2 * bodies, {});
+    kinds_.assign(pairs, untouched);
+    for (const auto &[kernel, items] : {std::pair{Kernel::find_cores, bodies}, {Kernel::find_pair_kinds, pairs}}) {
+      std::vector<void *> arguments;
+      for (const Argument &argument : row_of(kernel).arguments)
+        arguments.push_back(argument.kind == Argument::Kind::value ? &by_core_ : storage(argument.buffer, outputs));
+      table.run[index_of(kernel)](arguments.data(), 0, items);
+    }
+    return kinds_;
+  }
+
   Contact contact(const Outputs &outputs, size_t pair) const
   {
     Contact contact;
@@ -216,6 +234,8 @@ private:
     case Buffer::body_position: return positions_.data();
     case Buffer::body_orientation: return orientations_.data();
     case Buffer::body_velocity: return velocities_.data();
+    case Buffer::body_core: return cores_.data();
+    case Buffer::sort_key: return kinds_.data();
     case Buffer::body_gravity: return nullptr; /* of batches of worlds alone */
     case Buffer::parameters: return &parameters;
     case Buffer::pair_leaf: return nullptr; /* of scenes with trees alone */
@@ -229,8 +249,9 @@ private:
   }
 
   std::vector<TestBody> bodies_;
-  std::vector<float4> shapes_, poses_, positions_, orientations_, velocities_;
-  std::vector<uint32_t> flags_, pair_a_, pair_b_, of_kind_, counts_;
+  std::vector<float4> shapes_, poses_, positions_, orientations_, velocities_, cores_;
+  std::vector<uint32_t> flags_, pair_a_, pair_b_, of_kind_, counts_, kinds_;
+  uint32_t by_core_ = 1;
 };
 
 class Random {
