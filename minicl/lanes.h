@@ -136,6 +136,15 @@ SHARED void atomic_max_if(mask m, uint *to, uint_lanes at, uint_lanes value)
   for (int lane = 0; lane < width; ++lane)
     if (m.v[lane]) atomic_max_uint(to + at.v[lane], value.v[lane]);
 }
+/* The lanes that have the mask are mostly few, so the others are not looked at. */
+SHARED void atomic_max_both_if(mask m, uint *to, uint_lanes at, uint_lanes first, uint_lanes second)
+{
+  for (uint32_t left = lane_bits(m); left != 0; left &= left - 1) {
+    const int lane = __builtin_ctz(left);
+    atomic_max_uint(to + at.v[lane], first.v[lane]);
+    atomic_max_uint(to + at.v[lane] + 1, second.v[lane]);
+  }
+}
 SHARED void atomic_add_if(mask m, uint *to, uint_lanes at, uint value)
 {
   for (int lane = 0; lane < width; ++lane)

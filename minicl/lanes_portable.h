@@ -6,6 +6,12 @@ SHARED real square_root(real x)
   for (int lane = 0; lane < width; ++lane) x.v[lane] = __builtin_sqrtf(x.v[lane]);
   return x;
 }
+SHARED uint32_t lane_bits(mask m)
+{
+  uint32_t bits = 0;
+  for (int lane = 0; lane < width; ++lane) bits |= (m.v[lane] ? 1u : 0u) << lane;
+  return bits;
+}
 SHARED bool any_of(mask m)
 {
   int32_t all = 0;

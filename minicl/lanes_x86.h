@@ -11,8 +11,9 @@
 
 #if TANDEM_LANES == 16
 SHARED real square_root(real x) { return real((float_vector)_mm512_maskz_sqrt_ps(0xffff, (__m512)x.v)); }
-SHARED bool any_of(mask m) { return _mm512_movepi32_mask((__m512i)m.v) != 0; }
-SHARED bool all_of(mask m) { return _mm512_movepi32_mask((__m512i)m.v) == 0xffff; }
+SHARED uint32_t lane_bits(mask m) { return _mm512_movepi32_mask((__m512i)m.v); }
+SHARED bool any_of(mask m) { return lane_bits(m) != 0; }
+SHARED bool all_of(mask m) { return lane_bits(m) == 0xffff; }
 
 typedef __m512 quarter_rows; /* four records: of lanes k, k + 4, k + 8, k + 12 */
 SHARED quarter_rows load_quarter(const float4 *const *lanes, int k)
@@ -36,8 +37,9 @@ SHARED quarter_rows halves_high(quarter_rows a, quarter_rows b) { return _mm512_
 
 #elif TANDEM_LANES == 8
 SHARED real square_root(real x) { return real((float_vector)_mm256_sqrt_ps((__m256)x.v)); }
-SHARED bool any_of(mask m) { return _mm256_movemask_ps((__m256)m.v) != 0; }
-SHARED bool all_of(mask m) { return _mm256_movemask_ps((__m256)m.v) == 0xff; }
+SHARED uint32_t lane_bits(mask m) { return _mm256_movemask_ps((__m256)m.v); }
+SHARED bool any_of(mask m) { return lane_bits(m) != 0; }
+SHARED bool all_of(mask m) { return lane_bits(m) == 0xff; }
 
 typedef __m256 quarter_rows; /* two records: of lanes k and k + 4 */
 SHARED quarter_rows load_quarter(const float4 *const *lanes, int k)
@@ -56,8 +58,9 @@ SHARED quarter_rows halves_high(quarter_rows a, quarter_rows b) { return _mm256_
 
 #else
 SHARED real square_root(real x) { return real((float_vector)_mm_sqrt_ps((__m128)x.v)); }
-SHARED bool any_of(mask m) { return _mm_movemask_ps((__m128)m.v) != 0; }
-SHARED bool all_of(mask m) { return _mm_movemask_ps((__m128)m.v) == 0xf; }
+SHARED uint32_t lane_bits(mask m) { return _mm_movemask_ps((__m128)m.v); }
+SHARED bool any_of(mask m) { return lane_bits(m) != 0; }
+SHARED bool all_of(mask m) { return lane_bits(m) == 0xf; }
 
 typedef __m128 quarter_rows; /* one record */
 SHARED quarter_rows load_quarter(const float4 *const *lanes, int k) { return _mm_load_ps(&lanes[k]->x); }

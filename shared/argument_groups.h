@@ -374,6 +374,19 @@ typedef struct {
   BUFFER(cached_normal_impulse, float4, normal_impulse)                                                                \
   BUFFER(cached_friction_impulse, float4, friction_impulse)
 
+/* The same, and what stood on each body. */
+#define GROUP_cached_loads(BUFFER)                                                                                     \
+  BUFFER(pair_cached, uint, of_pair)                                                                                   \
+  BUFFER(cached_feature, uint, feature)                                                                                \
+  BUFFER(cached_normal_impulse, float4, normal_impulse)                                                                \
+  BUFFER(cached_friction_impulse, float4, friction_impulse)                                                            \
+  BUFFER(cached_standing, uint, standing)
+
+/* What contacts say of the bodies that they bear: that they do not fall, and what stands on them. */
+#define GROUP_borne_bodies(BUFFER)                                                                                     \
+  BUFFER(body_falls, uint, falls)                                                                                      \
+  BUFFER(previous_cached_standing, uint, standing)
+
 typedef struct {
   GROUP_nncg_rows(WRITE_MEMBER)
 } write_nncg_rows;
@@ -416,6 +429,12 @@ typedef struct {
 typedef struct {
   GROUP_cached_contacts(READ_MEMBER)
 } read_cached_contacts;
+typedef struct {
+  GROUP_cached_loads(READ_MEMBER)
+} read_cached_loads;
+typedef struct {
+  GROUP_borne_bodies(WRITE_MEMBER)
+} write_borne_bodies;
 typedef struct {
   GROUP_contact_orders(READ_MEMBER)
 } read_contact_orders;

@@ -20,12 +20,16 @@
 #define USUAL_SLOP R(0.005)
 #define USUAL_SLOP_SHARE R(0.05)
 
+SHARED real bearable_share(GLOBAL const Parameters *parameters)
+{
+  return parameters->slop_share > R(0.0) ? parameters->slop_share : USUAL_SLOP_SHARE;
+}
+
 /* m, what bodies of this size may give way by; a size of 0 is none. */
 SHARED real bearable_way(GLOBAL const Parameters *parameters, real size)
 {
   real slop = parameters->slop > R(0.0) ? parameters->slop : USUAL_SLOP;
-  real share = parameters->slop_share > R(0.0) ? parameters->slop_share : USUAL_SLOP_SHARE;
-  return choose(size > R(0.0), minimum(slop, share * size), (real)slop);
+  return choose(size > R(0.0), minimum(slop, bearable_share(parameters) * size), slop);
 }
 
 /* Rates that the fewest substeps have are not noted, so that few items meet at the maximum. Returns what is. */

@@ -74,6 +74,13 @@ SHARED void atomic_max_if(mask m, GLOBAL uint *to, uint_lanes at, uint_lanes val
 {
   if (m) ATOMIC_MAX(to + at, value);
 }
+/* Of two numbers beside each other. */
+SHARED void atomic_max_both_if(mask m, GLOBAL uint *to, uint_lanes at, uint_lanes first, uint_lanes second)
+{
+  if (!m) return;
+  ATOMIC_MAX(to + at, first);
+  ATOMIC_MAX(to + at + 1u, second);
+}
 SHARED void atomic_add_if(mask m, GLOBAL uint *to, uint_lanes at, uint value)
 {
   if (m) ATOMIC_ADD(to + at, value);

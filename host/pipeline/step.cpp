@@ -21,12 +21,13 @@
 #include "host/runtime/interface/pair_tests.h"
 #include "shared/body_codes.h"
 #include "shared/midphase/pair_groups.h"
+#include "shared/setup/order_codes.h"
 
 namespace tandem {
 namespace {
 
-/* So many layers of a stack are known after the first step of a world. The last pass writes body_standing, so there is
- * an odd number of them. */
+/* So many layers of a stack are known after the first step of a world. The last pass writes the side of cached_standing
+ * that the commit makes valid, so there is an odd number of them. */
 constexpr uint32_t passes_of_first_step = 129;
 
 class Step : public StepLaunches {
@@ -43,9 +44,10 @@ public:
     if (has(FEATURE_JOINTS)) take_joint_colors();
     run_extensions(StepPoint::begin);
     find_pairs();
+    if (plan().substeps.automatic) clear_standing(Buffer::previous_cached_standing);
     if (plan().apart) expect_no_pairs();
     else find_constraints();
-    if (plan().substeps.automatic) {
+    if (plan().substeps.automatic && layers_at_start() != 0) {
       count_supports();
       weigh_standing();
     }
@@ -93,7 +95,10 @@ private:
   {
     const bool by_pair = touches_mostly();
     if (by_pair) run(Kernel::place_constraints);
-    run_range(Kernel::prepare_contacts, COUNT_ZERO, by_pair ? COUNT_PAIRS : COUNT_CONSTRAINTS, {by_pair ? 1u : 0u});
+    const uint32_t items = by_pair ? COUNT_PAIRS : COUNT_CONSTRAINTS, order = by_pair ? ORDER_BY_PAIR : 0,
+                   weighs = layers_at_start() == 0 ? ORDER_WEIGHS : 0;
+    if (plan().substeps.automatic) run_range(Kernel::prepare_and_weigh_contacts, COUNT_ZERO, items, {order | weighs});
+    else run_range(Kernel::prepare_contacts, COUNT_ZERO, items, {by_pair ? 1u : 0u});
   }
 
   void find_pairs()
@@ -218,21 +223,23 @@ private:
   /* COUNT_BRACED_LAYERS that count: all in the first step. */
   uint32_t layers_at_start() const { return plan().substeps.starts ? INDEX_NONE : plan().substeps.layers_at_start; }
 
+  void clear_standing(Buffer standing) { run_range(Kernel::fill, COUNT_ZERO, COUNT_HALVES, {0}, {standing}); }
+
   void count_supports()
   {
-    if (layers_at_start() == 0) return;
     run_range(Kernel::fill, COUNT_ZERO, COUNT_BODIES, {0}, {Buffer::body_supports});
     run(Kernel::count_supports);
   }
 
-  /* A step carries what stands on a body down by one layer. The first step of a world carries it down through stacks,
-   * because those that are too tall would have begun to fall by the time that all is known. */
+  /* A step carries what stands on a body down by one layer, already where contacts are set up if no supports count. The
+   * first step of a world carries it down through stacks, because those that are too tall would have begun to fall by
+   * the time that all is known. */
   void weigh_standing()
   {
     const uint32_t passes = plan().substeps.starts ? passes_of_first_step : 1;
-    Buffer from = Buffer::cached_standing, to = Buffer::body_standing, other = Buffer::body_standing_other;
+    Buffer from = Buffer::cached_standing, to = Buffer::previous_cached_standing, other = Buffer::body_standing_other;
     for (uint32_t pass = 0; pass < passes; ++pass) {
-      run_range(Kernel::fill, COUNT_ZERO, COUNT_HALVES, {0}, {to});
+      if (pass > 0) clear_standing(to);
       run(Kernel::weigh_standing, {layers_at_start()}, {from, to});
       from = std::exchange(to, other);
       other = from;
@@ -259,7 +266,6 @@ private:
     if (plan().forces) run(Kernel::clear_forces);
     if (plan().sleeping)
       run_range(Kernel::copy, COUNT_ZERO, COUNT_COMMIT_BODIES, {}, {Buffer::rest_count, Buffer::resting_steps});
-    if (plan().substeps.automatic) run(Kernel::cache_standing);
     run(Kernel::cache_starts);
     run(Kernel::cache_pairs);
     run(Kernel::cache_impulses);

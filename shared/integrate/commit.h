@@ -97,12 +97,6 @@ SHARED void commit_bodies_item(GLOBAL const float4 *solver_velocity, GLOBAL cons
   store_float4(body_velocity, i * 2u + 1u, extend(m.angular, load_float4(body_mass, i).w));
 }
 
-SHARED void cache_standing_item(GLOBAL const uint *body_standing, GLOBAL uint *cached_standing, uint i)
-{
-  cached_standing[2u * i] = body_standing[2u * i];
-  cached_standing[2u * i + 1u] = body_standing[2u * i + 1u];
-}
-
 SHARED void cache_starts_item(GLOBAL const uint *pair_start, GLOBAL uint *cached_start, uint i)
 {
   cached_start[i] = pair_start[i];

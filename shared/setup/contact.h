@@ -440,6 +440,37 @@ SHARED void place_constraints_item(GLOBAL const uint *sort_value, GLOBAL uint *p
   pair_constraint[sort_value[i]] = i;
 }
 
+/* The constraint at `at` of a pair; `points` is what it begins with. */
+SHARED contact_setup prepare_contact(GLOBAL const Parameters *parameters, GLOBAL const float4 *material,
+                                     read_touching_bodies touching_bodies, read_part_pairs part_pairs,
+                                     read_manifolds manifolds, read_cached_contacts cached_contacts,
+                                     point_planes planes, write_constraints constraints, GLOBAL uint *body_falls,
+                                     points_setup *points, uint_lanes at, uint_lanes pair)
+{
+  contact_setup s = begin_setup(parameters, material, touching_bodies, part_pairs, manifolds, at, pair);
+  old_impulses old = load_old_impulses(parameters, cached_contacts, load_uint(cached_contacts.of_pair, pair));
+  points->deepest = R(0.0);
+  points->near = s.bodies.a == s.bodies.b; /* none yet */
+  vec4 point[4];
+  for (uint k = 0; k < 4u; ++k) {
+    point[k] = any_of(s.points > (uint_lanes)k) ? load_manifold_point(manifolds.points, planes, k, pair) : no_point();
+    prepare_point(parameters, &s, &old, point[k], k, planes, points, constraints.points);
+  }
+  mark_borne(&s, points->near, body_falls);
+  prepare_friction(parameters, &s, &old, point, constraints);
+
+  store_listed_uint_if(s.wanted, constraints.pair, at, pair);
+  store_listed_uint_if(s.wanted, constraints.a, at, s.bodies.a);
+  store_listed_uint_if(s.wanted, constraints.b, at, s.bodies.b);
+  store_listed_row_if(s.wanted, constraints.normal_impulse, at,
+                      make_vec4(points->impulse[0], points->impulse[1], points->impulse[2], points->impulse[3]));
+  store_listed_real_if(s.wanted, constraints.slop, at,
+                       limited_by_spin(parameters, s.bodies.velocity_a, s.bodies.velocity_b,
+                                       slop_or_deep(parameters, s.size, points->deepest)));
+  if (HAS_FEATURE(parameters, RESTITUTION)) store_restitution(&s, points, planes.stride, constraints.restitution);
+  return s;
+}
+
 /* by_pair: whether items are pairs, or constraints. In the order of pairs neighbours share bodies, and manifolds lie in
  * a row, so memory is read in order and only what is written is spread over the colours. It takes the pairs that do not
  * touch as well. */
@@ -449,33 +480,13 @@ SHARED void prepare_contacts_item(GLOBAL const Parameters *parameters, GLOBAL co
                                   read_contact_orders contact_orders, GLOBAL const uint *counts,
                                   write_constraints constraints, GLOBAL uint *body_falls, uint by_pair, item_index i)
 {
-  point_planes planes = planes_of(counts);
   uint_lanes at = i, pair = i;
   if (by_pair != 0u) at = load_uint(contact_orders.constraint, i);
   else pair = load_uint(contact_orders.pair, i);
   if (!any_of(at != (uint_lanes)INDEX_NONE)) return;
-  contact_setup s = begin_setup(parameters, material, touching_bodies, part_pairs, manifolds, at, pair);
-  old_impulses old = load_old_impulses(parameters, cached_contacts, load_uint(cached_contacts.of_pair, pair));
   points_setup points;
-  points.deepest = R(0.0);
-  points.near = s.bodies.a == s.bodies.b; /* none yet */
-  vec4 point[4];
-  for (uint k = 0; k < 4u; ++k) {
-    point[k] = any_of(s.points > (uint_lanes)k) ? load_manifold_point(manifolds.points, planes, k, pair) : no_point();
-    prepare_point(parameters, &s, &old, point[k], k, planes, &points, constraints.points);
-  }
-  mark_borne(&s, points.near, body_falls);
-  prepare_friction(parameters, &s, &old, point, constraints);
-
-  store_listed_uint_if(s.wanted, constraints.pair, at, pair);
-  store_listed_uint_if(s.wanted, constraints.a, at, s.bodies.a);
-  store_listed_uint_if(s.wanted, constraints.b, at, s.bodies.b);
-  store_listed_row_if(s.wanted, constraints.normal_impulse, at,
-                      make_vec4(points.impulse[0], points.impulse[1], points.impulse[2], points.impulse[3]));
-  store_listed_real_if(s.wanted, constraints.slop, at,
-                       limited_by_spin(parameters, s.bodies.velocity_a, s.bodies.velocity_b,
-                                       slop_or_deep(parameters, s.size, points.deepest)));
-  if (HAS_FEATURE(parameters, RESTITUTION)) store_restitution(&s, &points, planes.stride, constraints.restitution);
+  prepare_contact(parameters, material, touching_bodies, part_pairs, manifolds, cached_contacts, planes_of(counts),
+                  constraints, body_falls, &points, at, pair);
 }
 
 #endif

@@ -23,6 +23,7 @@
 
 #include "shared/load_rate.h"
 #include "shared/setup/contact.h"
+#include "shared/setup/order_codes.h"
 
 /* (2 pi 0.2)^2: the square of the frequency of the stiffest contacts, times that of a substep. */
 #define STIFFEST_CONTACT R(1.5791367)
@@ -49,12 +50,10 @@ typedef struct {
   real closing;                          /* m/s */
 } standing_pair;
 
-SHARED standing_pair standing_pair_of(GLOBAL const Parameters *parameters, read_contacts contacts,
-                                      GLOBAL const float4 *solver_velocity, item_index i)
+/* normal: from a to b. */
+SHARED standing_pair standing_pair_of(GLOBAL const Parameters *parameters, uint_lanes a, uint_lanes b,
+                                      spatial_velocity of_a, spatial_velocity of_b, vec3 normal)
 {
-  uint_lanes a = load_uint(contacts.a, i), b = load_uint(contacts.b, i);
-  spatial_velocity of_a = load_velocity(solver_velocity, a), of_b = load_velocity(solver_velocity, b);
-  vec3 normal = xyz(load_float4(contacts.normal, i));
   real least = minimum(of_a.inverse_mass, of_b.inverse_mass), sum = of_a.inverse_mass + of_b.inverse_mass;
   standing_pair p;
   p.up = dot3(gravity_of(parameters), normal) / parameters->gravity_length;
@@ -68,17 +67,23 @@ SHARED standing_pair standing_pair_of(GLOBAL const Parameters *parameters, read_
   return p;
 }
 
-/* The force that the contact bore in the last step, N; 0 if it is new. */
-SHARED real force_borne(GLOBAL const Parameters *parameters, GLOBAL const float4 *constraint_normal_impulse,
-                        item_index i)
+SHARED standing_pair load_standing_pair(GLOBAL const Parameters *parameters, read_contacts contacts,
+                                        GLOBAL const float4 *solver_velocity, item_index i)
 {
-  vec4 impulse = load_float4(constraint_normal_impulse, i);
+  uint_lanes a = load_uint(contacts.a, i), b = load_uint(contacts.b, i);
+  return standing_pair_of(parameters, a, b, load_velocity(solver_velocity, a), load_velocity(solver_velocity, b),
+                          xyz(load_float4(contacts.normal, i)));
+}
+
+/* The force that the contact bore in the last step, N; 0 if it is new. impulse: its warm start. */
+SHARED real force_borne(GLOBAL const Parameters *parameters, vec4 impulse)
+{
   return ((impulse.x + impulse.y) + (impulse.z + impulse.w)) * parameters->inverse_substep;
 }
 
 /* Whether some point is as near as gravity closes within the step. */
 SHARED mask stands_near(GLOBAL const Parameters *parameters, GLOBAL const memory_real *constraint_points,
-                        point_planes planes, item_index i)
+                        point_planes planes, any_index i)
 {
   real reach = R(0.5) * parameters->gravity_length * parameters->step * parameters->step;
   mask near = reach < R(0.0); /* none yet */
@@ -92,7 +97,7 @@ SHARED mask stands_near(GLOBAL const Parameters *parameters, GLOBAL const memory
 
 /* Whether the contact bears its upper body, or is about to. */
 SHARED mask stands(GLOBAL const Parameters *parameters, const standing_pair *p, real borne,
-                   GLOBAL const memory_real *constraint_points, point_planes planes, item_index i)
+                   GLOBAL const memory_real *constraint_points, point_planes planes, any_index i)
 {
   mask may_stand = (p->up * p->up >= STANDS) & (p->inverse_mass_upper > R(0.0));
   mask bears = may_stand & (borne > R(0.0));
@@ -108,8 +113,8 @@ SHARED void count_supports_item(GLOBAL const Parameters *parameters, GLOBAL cons
                                 GLOBAL uint *body_supports, item_index i)
 {
   if (!(parameters->gravity_length > R(0.0))) return;
-  standing_pair p = standing_pair_of(parameters, contacts, solver_velocity, i);
-  real borne = force_borne(parameters, constraint_normal_impulse, i);
+  standing_pair p = load_standing_pair(parameters, contacts, solver_velocity, i);
+  real borne = force_borne(parameters, load_float4(constraint_normal_impulse, i));
   atomic_add_if(stands(parameters, &p, borne, constraint_points, planes_of(counts), i), body_supports, p.upper, 1u);
 }
 
@@ -147,13 +152,40 @@ SHARED real pass_on(GLOBAL const Parameters *parameters, mask wanted, const stan
   real weight = R(1.0) / p->inverse_mass_upper + above;
   weight = choose(borne > R(0.0), minimum(weight, PASSED_ON * borne / parameters->gravity_length), weight);
   mask lower_moves = wanted & (p->inverse_mass > p->inverse_mass_upper); /* what cannot move bears everything */
-  atomic_max_if(lower_moves, standing, p->lower * 2u, layers);
-  atomic_max_if(lower_moves, standing, p->lower * 2u + 1u, real_bits(weight));
+  atomic_max_both_if(lower_moves, standing, p->lower * 2u, layers, real_bits(weight));
   return parameters->gravity_length * weight;
 }
 
-/* standing_above: of the pass before, or of the last step. standing: is 0 before. layers_at_start: COUNT_BRACED_LAYERS
- * of the first step of the world, INDEX_NONE in that step. Where it is 0, supports were not counted. */
+/* Whether a contact might need more than the fewest substeps. This is asked first, because it divides by nothing, and
+ * its bounds leave more room than rounding takes. */
+SHARED mask may_need_more(GLOBAL const Parameters *parameters, const standing_pair *p, real load, uint_lanes layers,
+                          real slop, real size)
+{
+  real fewest = minimum(FEWEST_SUBSTEPS / parameters->step, SOFTEST_RATE), rate = R(0.99) * (fewest * fewest);
+  real tall = to_real(layers);
+  mask bears = load * p->inverse_mass <= rate * (STIFFEST_CONTACT * BEARABLE_SINK) * slop;
+  mask is_straight = tall * tall * tall * parameters->gravity_length <= rate * (STIFFEST_STACK * R(2.0)) * size;
+  return !(bears & is_straight);
+}
+
+/* What a contact that stands carries: the rate that it needs is noted, and what is above is passed on. standing_above:
+ * of the pass before, or of the last step. standing: is 0 before. Returns the layers. */
+SHARED uint_lanes weigh(GLOBAL const Parameters *parameters, const standing_pair *p, mask bears, mask is_new,
+                        real borne, real size, GLOBAL const uint *standing_above, GLOBAL uint *standing,
+                        GLOBAL uint *counts)
+{
+  uint_lanes layers = load_uint(standing_above, p->upper * 2u) + 1u;
+  real above = real_of_bits(load_uint(standing_above, p->upper * 2u + 1u));
+  real load = pass_on(parameters, bears, p, borne, layers, above, standing);
+  load = choose(is_new, load, minimum(load, borne));
+  real slop = bearable_way(parameters, size);
+  real extent = choose(size > R(0.0), size, (real)R(0.5));
+  if (any_of(bears & may_need_more(parameters, p, load, layers, slop, extent)))
+    note_rate(parameters, bears, rate_needed(parameters, p, load, layers, slop, extent), counts);
+  return layers;
+}
+
+/* layers_at_start: COUNT_BRACED_LAYERS of the first step of the world, INDEX_NONE in that step. */
 SHARED void weigh_standing_item(GLOBAL const Parameters *parameters, GLOBAL const float4 *body_shape,
                                 GLOBAL const float4 *solver_velocity, read_contacts contacts,
                                 read_loads_before loads_before, GLOBAL const memory_real *constraint_points,
@@ -161,23 +193,47 @@ SHARED void weigh_standing_item(GLOBAL const Parameters *parameters, GLOBAL cons
                                 GLOBAL uint *standing, GLOBAL uint *counts, uint layers_at_start, item_index i)
 {
   if (!(parameters->gravity_length > R(0.0))) return;
-  standing_pair p = standing_pair_of(parameters, contacts, solver_velocity, i);
-  real borne = force_borne(parameters, loads_before.normal_impulse, i);
+  standing_pair p = load_standing_pair(parameters, contacts, solver_velocity, i);
+  real borne = force_borne(parameters, load_float4(loads_before.normal_impulse, i));
   mask bears = stands(parameters, &p, borne, constraint_points, planes_of(counts), i);
   if (!any_of(bears)) return;
   mask is_new = load_uint(loads_before.cached, load_uint(loads_before.pair, i)) == (uint_lanes)INDEX_NONE;
-  uint_lanes layers = load_uint(standing_above, p.upper * 2u) + 1u;
-  real above = real_of_bits(load_uint(standing_above, p.upper * 2u + 1u));
-  real load = pass_on(parameters, bears, &p, borne, layers, above, standing);
-  load = choose(is_new, load, minimum(load, borne));
   real size = size_between(body_shape, load_uint(contacts.a, i), load_uint(contacts.b, i));
-  real slop = bearable_way(parameters, size);
-  real share = parameters->slop_share > R(0.0) ? parameters->slop_share : USUAL_SLOP_SHARE;
-  size = choose(size > R(0.0), size, (real)R(0.5));
-  note_rate(parameters, bears, rate_needed(parameters, &p, load, layers, slop, size), counts);
-  if (layers_at_start == 0u) return;
+  uint_lanes layers = weigh(parameters, &p, bears, is_new, borne, size, standing_above, standing, counts);
   mask is_braced = bears & (load_uint(body_supports, p.upper) > (uint_lanes)1u);
-  note_braced(parameters, is_braced, layers, layers_at_start, share * size, counts);
+  real extent = choose(size > R(0.0), size, (real)R(0.5));
+  note_braced(parameters, is_braced, layers, layers_at_start, bearable_share(parameters) * extent, counts);
+}
+
+/* Set-up, and one pass of weigh_standing that needs no supports. Both read the same of a contact, and a step of four
+ * substeps would otherwise read it twice. order: order_codes.h. */
+SHARED void prepare_and_weigh_contacts_item(GLOBAL const Parameters *parameters, GLOBAL const float4 *material,
+                                            read_touching_bodies touching_bodies, read_part_pairs part_pairs,
+                                            read_manifolds manifolds, read_cached_loads cached_loads,
+                                            read_contact_orders contact_orders, GLOBAL uint *counts,
+                                            write_constraints constraints, write_borne_bodies borne_bodies, uint order,
+                                            item_index i)
+{
+  uint_lanes at = i, pair = i;
+  if ((order & (uint)ORDER_BY_PAIR) != 0u) at = load_uint(contact_orders.constraint, i);
+  else pair = load_uint(contact_orders.pair, i);
+  if (!any_of(at != (uint_lanes)INDEX_NONE)) return;
+  point_planes planes = planes_of(counts);
+  read_cached_contacts cached_contacts = {cached_loads.of_pair, cached_loads.feature, cached_loads.normal_impulse,
+                                          cached_loads.friction_impulse};
+  points_setup points;
+  contact_setup s = prepare_contact(parameters, material, touching_bodies, part_pairs, manifolds, cached_contacts,
+                                    planes, constraints, borne_bodies.falls, &points, at, pair);
+  if ((order & (uint)ORDER_WEIGHS) == 0u || !(parameters->gravity_length > R(0.0))) return;
+  standing_pair p =
+      standing_pair_of(parameters, s.bodies.a, s.bodies.b, s.bodies.velocity_a, s.bodies.velocity_b, s.normal);
+  real borne =
+      force_borne(parameters, make_vec4(points.impulse[0], points.impulse[1], points.impulse[2], points.impulse[3]));
+  p.inverse_mass_upper = choose(s.wanted, p.inverse_mass_upper, (real)R(0.0)); /* then it does not stand */
+  mask bears = stands(parameters, &p, borne, constraints.points, planes, choose(s.wanted, at, (uint_lanes)0u));
+  if (!any_of(bears)) return;
+  mask is_new = load_uint(cached_loads.of_pair, pair) == (uint_lanes)INDEX_NONE;
+  weigh(parameters, &p, bears, is_new, borne, s.size, cached_loads.standing, borne_bodies.standing, counts);
 }
 
 #endif
