@@ -90,7 +90,11 @@ SHARED vec3 open_rows(GLOBAL const Parameters *parameters, joint j, joint_frames
 
 /* A motor has a negative damping. */
 SHARED uint springs_drive(const joint_axis *axis) { return axis->damping >= R(0.0) ? 1u : 0u; }
-SHARED uint springs_limit(const joint_axis *axis) { return axis->limit_stiffness > R(0.0) ? 1u : 0u; }
+/* A soft limit that only stops what comes carries a load as a hard one does; a range of 0 is a spring. */
+SHARED uint springs_limit(const joint_axis *axis)
+{
+  return axis->limit_stiffness > R(0.0) && axis->lower == axis->upper ? 1u : 0u;
+}
 
 /* Stiff springs share their momentum slowly, so a penalty that is not needed any more goes down. */
 SHARED void lower_spring_penalties(const joint_axis *axis, GLOBAL float4 *penalty, uint at)

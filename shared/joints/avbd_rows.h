@@ -23,7 +23,8 @@
  * explicit in how a push turns with its body, and a light body on which a large force pulls swings too fast for it.
  * There, directions are those at a later share of the substep, `ahead`: from half on any force is stable, and swings
  * are damped. The derivative of the directions is then a part of the body's system; the sizes of its columns are added
- * to the diagonal, as in the paper.
+ * to the diagonal, as in the paper. That of a distance is known: what moves across it turns its direction by the way
+ * over the distance, so a light body between two ropes of a heavy one swings no faster than its substep lets it.
  *
  * A descent along rows whose values change along directions that are off by an angle of a contracts by 2 sin(a / 2) an
  * iteration at best. So rows are `straight` where that is too much: their values follow the velocities as they are. It
@@ -45,10 +46,12 @@ typedef struct {
   uint holds;
 } avbd_row;
 
-/* The rows of an axis, which share one Jacobian. */
+/* The rows of an axis, which share one Jacobian. turning: how far the direction of a distance turns within the substep
+ * for each m/s across it, up to where it is taken, s/m; 0 of others, which do not follow the way across. */
 typedef struct {
   axis_row at;
   avbd_row drive, limit, friction, speed;
+  real turning;
 } avbd_axis;
 
 /* Multipliers, penalties, and what is left open, of the rows of three directions and three rotations. */
@@ -303,11 +306,14 @@ SHARED uint turns_far(const avbd_joint *joint, const axis_row *at, joint_coordin
   return is_far != 0u || off > AVBD_SMALL_TURN * AVBD_SMALL_TURN ? 1u : 0u;
 }
 
-SHARED axis_row row_of_avbd_axis(const avbd_joint *joint, uint kind)
+SHARED axis_row row_of_avbd_axis(const avbd_joint *joint, uint kind, real *turning)
 {
   axis_row at = row_of_axis(joint->j, joint->f, kind);
   joint_coordinate end = coordinate_of(joint->end, joint->end_f, kind);
+  *turning = R(0.0);
+  if (kind == (uint)JOINT_AXIS_DISTANCE && at.at.value > R(0.0)) *turning = joint->ahead * joint->time / at.at.value;
   if (turns_far(joint, &at, end, kind) != 0u) {
+    *turning = R(0.0);
     at = row_of_axis(joint->start, joint->start_f, kind);
     end.value = at.at.value + joint->time * at.speed;
   }
@@ -319,7 +325,7 @@ SHARED avbd_axis avbd_axis_of(GLOBAL const Parameters *parameters, const avbd_jo
                               vec4 multiplier, vec4 penalty, real left)
 {
   avbd_axis rows;
-  rows.at = row_of_avbd_axis(joint, axis->kind);
+  rows.at = row_of_avbd_axis(joint, axis->kind, &rows.turning);
   rows.drive = drive_row(parameters, &rows.at, axis, multiplier.x, penalty.x);
   rows.limit = limit_row(parameters, &rows.at, axis, left, multiplier.y, penalty.y);
   rows.friction = friction_row(parameters, &rows.at, axis->friction, multiplier.z, penalty.z);

@@ -128,6 +128,18 @@ SHARED void add_joint_row(block_system *s, block_frame frame, const axis_row *at
   add_row(s, frame, at->at.direction, moment, r.stiffness, r.impulse);
 }
 
+/* A push along a distance turns with what moves across it; of a push apart, too, the size is added. */
+SHARED void add_turning_distance(block_system *s, block_frame frame, const avbd_joint *joint, const avbd_axis *rows,
+                                 real zero)
+{
+  real stiffness = rows->turning * magnitude(rows->limit.impulse + rows->drive.impulse);
+  if (!(stiffness > R(0.0))) return;
+  vec3 arm = frame.side > R(0.0) ? joint->j.b.arm : subtract(joint->j.a.arm, joint->j.gap);
+  tangents across = tangents_of(rows->at.at.direction);
+  add_row(s, frame, across.first, cross3(arm, across.first), stiffness, zero);
+  add_row(s, frame, across.second, cross3(arm, across.second), stiffness, zero);
+}
+
 SHARED void add_held_rows(block_system *s, block_frame frame, GLOBAL const Parameters *parameters,
                           const avbd_joint *joint, const held_rows *rows, vec3 *push)
 {
@@ -150,6 +162,7 @@ SHARED void add_axes(block_system *s, block_frame frame, GLOBAL const Parameters
     add_joint_row(s, frame, &rows.at, rows.limit);
     add_joint_row(s, frame, &rows.at, rows.friction);
     add_joint_row(s, frame, &rows.at, rows.speed);
+    add_turning_distance(s, frame, joint, &rows, (real)parameters->zero);
     *push = add_scaled(*push, rows.at.at.direction, rows.limit.impulse);
     *push = add_scaled(*push, rows.at.at.direction, rows.drive.impulse);
   }

@@ -50,6 +50,24 @@ Scene balls_on_ropes(uint32_t balls, double stiffness, double damping)
   return scene;
 }
 
+/* Balls of 1 kg in a level line on taut ropes of 0.5 m, of no stiffness hard ones; the last one is heavier. */
+Scene level_ropes(uint32_t balls, double last_mass, double stiffness)
+{
+  Scene scene = empty_scene();
+  for (uint32_t k = 0; k < balls; ++k) {
+    Body &ball = add_body(scene, BodyType::dynamic, sphere_shape(0.1f), {0.5 * (k + 1), 0, 0});
+    ball.filter_mask = 0;
+    if (k + 1 == balls) ball.mass = float(last_mass);
+    Joint rope;
+    rope.type = JointType::distance;
+    rope.body_a = k == 0 ? no_body : k - 1;
+    rope.body_b = k;
+    rope.directions[0] = soft_range(0, 0.5, stiffness, 0);
+    scene.joints.push_back(rope);
+  }
+  return scene;
+}
+
 /* A rod that begins level on a hinge at its end, with a soft stop 0.1 rad below. */
 Scene rod_on_hinge(double mass, double length, double stiffness, double damping)
 {
@@ -153,6 +171,15 @@ TEST_CASE("soft limits of avbd: balls on a chain of elastic ropes get no energy"
   const double stiffness = GENERATE(1e3, 1e4, 1e5, 1e6, 1e7, 1e9), damping = GENERATE(0.0, 10.0);
   CAPTURE(stiffness, damping);
   CHECK(most_gained(balls_on_ropes(2, stiffness, damping)) < 0.05 * gravity * (drop + 2 * drop));
+}
+
+/* The ropes throw the light balls to and fro across the pull of the heavy one. */
+TEST_CASE("soft limits of avbd: a line of ropes that swings down gets no energy, also with a heavy end", "[physics]")
+{
+  const uint32_t balls = GENERATE(2u, 3u, 5u);
+  const double stiffness = GENERATE(0.0, 1e4, 1e6, 1e7, 1e9), last_mass = GENERATE(1.0, 10.0, 100.0);
+  CAPTURE(balls, stiffness, last_mass);
+  CHECK(most_gained(level_ropes(balls, last_mass, stiffness)) < 0.02 * gravity * last_mass * 0.5 * balls);
 }
 
 TEST_CASE("soft limits of avbd: a rod that falls on a soft stop of its hinge gets no energy", "[physics]")
