@@ -371,13 +371,20 @@ typedef struct {
 #define GROUP_cached_contacts(BUFFER)                                                                                  \
   BUFFER(pair_cached, uint, of_pair)                                                                                   \
   BUFFER(cached_feature, uint, feature)                                                                                \
+  BUFFER(cached_single_impulse, memory_real, single_impulse)                                                           \
   BUFFER(cached_normal_impulse, float4, normal_impulse)                                                                \
   BUFFER(cached_friction_impulse, float4, friction_impulse)
 
-/* The same, and what stood on each body. */
+/* The normal impulses of pairs of single points, and of others. */
+#define GROUP_cached_normal_impulses(BUFFER)                                                                           \
+  BUFFER(cached_single_impulse, memory_real, single)                                                                   \
+  BUFFER(cached_normal_impulse, float4, rows)
+
+/* The contacts of the last step, and what stood on each body. */
 #define GROUP_cached_loads(BUFFER)                                                                                     \
   BUFFER(pair_cached, uint, of_pair)                                                                                   \
   BUFFER(cached_feature, uint, feature)                                                                                \
+  BUFFER(cached_single_impulse, memory_real, single_impulse)                                                           \
   BUFFER(cached_normal_impulse, float4, normal_impulse)                                                                \
   BUFFER(cached_friction_impulse, float4, friction_impulse)                                                            \
   BUFFER(cached_standing, uint, standing)
@@ -429,6 +436,9 @@ typedef struct {
 typedef struct {
   GROUP_cached_contacts(READ_MEMBER)
 } read_cached_contacts;
+typedef struct {
+  GROUP_cached_normal_impulses(WRITE_MEMBER)
+} write_cached_normal_impulses;
 typedef struct {
   GROUP_cached_loads(READ_MEMBER)
 } read_cached_loads;

@@ -40,7 +40,10 @@ public:
     if (plan().sleepers && plan().other_sleepers) list_sleepers(*this);
     run(Kernel::prepare_bodies);
     if (has(FEATURE_LOCKS)) run(Kernel::lock_bodies);
-    if (has_links()) run(Kernel::begin_articulations);
+    if (has_links()) {
+      run(Kernel::clear_warm_starts);
+      run(Kernel::begin_articulations);
+    }
     if (has(FEATURE_JOINTS)) take_joint_colors();
     run_extensions(StepPoint::begin);
     find_pairs();

@@ -148,7 +148,7 @@ void StepLaunches::begin_substep(uint32_t substep)
   if (plan_.forces) run(Kernel::begin_forces);
   run_extensions(StepPoint::forces);
   if (plan_.forces) run(Kernel::apply_forces);
-  run(Kernel::integrate_velocities);
+  run(Kernel::integrate_velocities, {substep == 0 && !has_links()});
   if (balances_trees() && substep + 1 == settings_.substeps) run(Kernel::begin_tree_balance, {plan_.forces});
   if (has_links()) run(Kernel::accelerate_articulations, {plan_.forces});
   if (has(FEATURE_MAX_SPEED)) run(Kernel::clamp_speeds);

@@ -36,6 +36,10 @@ size_t item_bytes(Buffer buffer);
 /* The number of items that the last step left; later ones are of older steps. pairs: in the contact cache. */
 size_t items_in_use(Memory &memory, Buffer buffer, BodyNumbers bodies, uint32_t pairs);
 
+/* The normal impulses of pairs in rows of four, whichever of cached_single_impulse and cached_normal_impulse has them.
+ * rows: empty where pairs have single points. */
+std::vector<float4> impulse_rows(const std::vector<float> &single, std::vector<float4> rows);
+
 /* A hash of these buffers, as far as a scene of these features has them. If nobody sleeps, it is equal iff the next
  * step will be equal. */
 uint64_t hash_carried(Memory &memory, const std::vector<CarriedBuffer> &carried, BodyNumbers bodies, Features features);

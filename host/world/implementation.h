@@ -379,6 +379,7 @@ struct World::Implementation {
   bool fits_table(uint32_t more) const;
   void append_fallen(uint32_t before);
   Sleepers sleepers_with(const std::vector<CarriedBuffer> &old_rows) const;
+  uint64_t hash_sleepers(uint64_t seed) const;
   void recount_motion();
   void keep_order_of_events();
   void put_to_sleep();

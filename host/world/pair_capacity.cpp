@@ -17,7 +17,7 @@ namespace {
 /* More pairs of fat boxes overlap than of bounds, yet hardly so many; memory is limited by the latter. */
 constexpr uint32_t most_candidates_per_pair = 4;
 
-constexpr uint32_t least_pairs = 1024;
+constexpr uint32_t least_pairs = 1024, few_bodies = 16;
 
 /* A world whose number of pairs hardly changes outgrows its first room once, and needs hardly more than it found then.
  * One that piles up outgrows its room again and again: a sixteenth more each time would run twice as many steps again
@@ -28,13 +28,14 @@ uint64_t more_by_share(uint64_t needed, uint64_t share) { return needed + needed
 
 } // namespace
 
-/* A pair has a body that can be pushed, or a trigger. Two pairs of 16 bytes take no more than a body of 32, so rows of
- * pairs fit into the memory of rows of bodies (shared_memory.h). */
+/* A pair has a body that can be pushed, or a trigger. Two pairs of 16 bytes take as much as a body of 32, so rows of
+ * pairs and of bodies fit into the memory of one another (shared_memory.h), unless many bodies cannot be pushed. */
 uint32_t first_capacity(const Scene &scene, const Settings &settings)
 {
   const auto pushed = std::count_if(scene.bodies.begin(), scene.bodies.end(),
                                     [](const Body &body) { return body.type == BodyType::dynamic; });
-  const uint64_t wanted = std::max<uint64_t>(2 * static_cast<uint64_t>(pushed), least_pairs);
+  const uint64_t counted = std::min<uint64_t>(scene.bodies.size(), static_cast<uint64_t>(pushed) + few_bodies);
+  const uint64_t wanted = std::max<uint64_t>(2 * counted, least_pairs);
   return static_cast<uint32_t>(std::min<uint64_t>(wanted, settings.max_pairs));
 }
 

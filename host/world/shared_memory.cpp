@@ -1,5 +1,6 @@
-/* shared_memory.cpp - see shared_memory.h. Buffers that must have memory of their own come first. Of the others, large
- * ones choose before small ones: each takes the smallest memory that is free while it matters, or has its own, too. */
+/* shared_memory.cpp - see shared_memory.h. Buffers that must have memory of their own come first. Each of the
+ * others takes the smallest memory that is free while it matters, or has its own, too. They choose in two orders, large
+ * ones or those that matter for long before others; the one that saves more holds. */
 #include "host/world/shared_memory.h"
 
 #include <algorithm>
@@ -93,14 +94,25 @@ void add_idle_sides(std::vector<Room> &rooms, const StepSpans &spans, const Memo
   }
 }
 
-/* Those that must have memory of their own, then the others, the largest first. */
-std::vector<Room> rooms_of(const StepSpans &spans, const Memory &memory, const std::vector<bool> &apart)
+uint32_t launches_of(const Room &room) { return room.span.last - room.span.first; }
+
+bool is_larger(const Room &a, const Room &b) { return a.bytes > b.bytes; }
+
+/* What matters for long finds a place only while few have chosen. */
+bool matters_longer(const Room &a, const Room &b)
+{
+  return launches_of(a) != launches_of(b) ? launches_of(a) > launches_of(b) : a.bytes > b.bytes;
+}
+
+/* Those that must have memory of their own, then the others in the order in which they choose. */
+std::vector<Room> rooms_of(const StepSpans &spans, const Memory &memory, const std::vector<bool> &apart,
+                           bool (*chooses_before)(const Room &, const Room &))
 {
   std::vector<Room> rooms;
   add_scratch(rooms, spans, memory, apart);
   add_idle_sides(rooms, spans, memory);
-  std::stable_sort(rooms.begin(), rooms.end(), [](const Room &a, const Room &b) {
-    return a.may_move != b.may_move ? b.may_move : a.bytes > b.bytes;
+  std::stable_sort(rooms.begin(), rooms.end(), [&](const Room &a, const Room &b) {
+    return a.may_move != b.may_move ? b.may_move : chooses_before(a, b);
   });
   return rooms;
 }
@@ -127,19 +139,33 @@ Landlord *landlord_for(const Room &room, std::vector<Landlord> &landlords)
   return best;
 }
 
+struct Placed {
+  std::vector<Tenancy> tenancies;
+  size_t saved = 0; /* bytes */
+};
+
+Placed placed_in_turn(const std::vector<Room> &rooms)
+{
+  Placed placed;
+  std::vector<Landlord> landlords;
+  for (const Room &room : rooms) {
+    Landlord *const landlord = room.may_move ? landlord_for(room, landlords) : nullptr;
+    if (landlord) {
+      placed.tenancies.push_back({room.buffer, landlord->buffer});
+      placed.saved += room.bytes;
+      landlord->taken.push_back(room.span);
+    } else landlords.push_back({room.buffer, room.bytes, {room.span}});
+  }
+  return placed;
+}
+
 } // namespace
 
 std::vector<Tenancy> tenancies_of(const StepSpans &spans, const Memory &memory, const std::vector<bool> &apart)
 {
-  std::vector<Tenancy> tenancies;
-  std::vector<Landlord> landlords;
-  for (const Room &room : rooms_of(spans, memory, apart)) {
-    Landlord *const landlord = room.may_move ? landlord_for(room, landlords) : nullptr;
-    if (landlord) tenancies.push_back({room.buffer, landlord->buffer});
-    if (landlord) landlord->taken.push_back(room.span);
-    else landlords.push_back({room.buffer, room.bytes, {room.span}});
-  }
-  return tenancies;
+  Placed by_size = placed_in_turn(rooms_of(spans, memory, apart, is_larger)),
+         by_span = placed_in_turn(rooms_of(spans, memory, apart, matters_longer));
+  return std::move(by_span.saved > by_size.saved ? by_span : by_size).tenancies;
 }
 
 } // namespace tandem

@@ -179,6 +179,32 @@ Sleepers World::Implementation::sleepers_with(const std::vector<CarriedBuffer> &
   return rearranged;
 }
 
+/* Their hash is that of rows of four impulses and of features, as hash_carried has it: zeros where pairs of single
+ * points leave them out. Pairs that fell asleep before the scene had others have an impulse beside the row. */
+uint64_t World::Implementation::hash_sleepers(uint64_t seed) const
+{
+  if (sleepers.count() == 0) return seed;
+  const bool several = (special.features & FEATURE_SEVERAL_POINTS) != 0;
+  std::vector<Sleepers::Part> parts, single;
+  size_t at = 0;
+  for (const CarriedBuffer &rows : buffers.carried()) {
+    const std::vector<bool> &touched = buffers.needs().touched;
+    if (row_of(rows.now).capacity != Capacity::PAIRS || !touched[index_of(rows.now)]) continue;
+    const bool filled = is_filled(touched, rows.now);
+    const size_t words = words_of(rows.now);
+    if (rows.now == Buffer::cached_single_impulse) single = {{at, words}};
+    if (rows.now == Buffer::cached_normal_impulse && !filled) parts.push_back({Sleepers::no_words, words - 1});
+    else if (rows.now == Buffer::cached_feature && !filled) parts.push_back({Sleepers::no_words, words});
+    else if (filled && !(several && rows.now == Buffer::cached_single_impulse)) parts.push_back({at, words});
+    if (filled) at += words;
+  }
+  Sleepers whole = sleepers, beside = sleepers;
+  whole.rearrange(parts);
+  beside.rearrange(several ? single : std::vector<Sleepers::Part>{});
+  seed = whole.hash(seed);
+  return beside.have_words() ? beside.hash(seed) : seed;
+}
+
 /* What the host knows of motion, found anew: after a state has been put back. */
 void World::Implementation::recount_motion()
 {

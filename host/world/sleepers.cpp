@@ -86,6 +86,15 @@ void Sleepers::rearrange(const std::vector<Part> &parts)
     }
 }
 
+bool Sleepers::have_words() const
+{
+  return std::any_of(islands_.begin(), islands_.end(), [](const auto &island) {
+    return std::any_of(island.second.pairs.begin(), island.second.pairs.end(), [](const SleepingPair &pair) {
+      return std::any_of(pair.words.begin(), pair.words.end(), [](uint32_t word) { return word != 0; });
+    });
+  });
+}
+
 uint64_t Sleepers::hash(uint64_t seed) const
 {
   for (const auto &[number, island] : islands_) {

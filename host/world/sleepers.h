@@ -47,6 +47,8 @@ public:
     size_t first; /* among the present words; no_words: zeros */
     size_t words;
   };
+  /* Whether some word of a pair is not 0. */
+  bool have_words() const;
   /* Gives all pairs these parts, one after another, in place of their words. */
   void rearrange(const std::vector<Part> &parts);
   uint64_t hash(uint64_t seed) const; /* the seed if nobody sleeps */

@@ -301,7 +301,7 @@ uint64_t World::state_hash()
 uint64_t World::Implementation::state_hash()
 {
   settle();
-  uint64_t hash = sleepers.hash(hash_carried(memory, buffers.carried(), {bodies(), special.awake}, scene_features));
+  uint64_t hash = hash_sleepers(hash_carried(memory, buffers.carried(), {bodies(), special.awake}, scene_features));
   for (const Quarantine &taken : quarantined) hash = hash_bytes(&taken.body, sizeof taken.body, hash);
   return hash;
 }

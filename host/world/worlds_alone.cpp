@@ -21,6 +21,49 @@ uint64_t hash_of_bodies(WorldReader &reader, const WorldPlace &place)
   return hash;
 }
 
+const std::vector<std::byte> &bytes_in(const std::vector<WorldRow> &rows, Buffer buffer)
+{
+  static const std::vector<std::byte> none;
+  const auto found = std::find_if(rows.begin(), rows.end(), [&](const WorldRow &row) { return row.buffer == buffer; });
+  return found == rows.end() ? none : found->bytes;
+}
+
+template <class T> std::vector<T> items_in(const std::vector<WorldRow> &rows, Buffer buffer)
+{
+  const std::vector<std::byte> &bytes = bytes_in(rows, buffer);
+  std::vector<T> items(bytes.size() / sizeof(T));
+  std::copy_n(bytes.data(), items.size() * sizeof(T), reinterpret_cast<std::byte *>(items.data()));
+  return items;
+}
+
+std::vector<float4> impulses_in(const std::vector<WorldRow> &rows)
+{
+  return impulse_rows(items_in<float>(rows, Buffer::cached_single_impulse),
+                      items_in<float4>(rows, Buffer::cached_normal_impulse));
+}
+
+uint64_t hash_rows(const std::vector<float4> &rows, uint64_t hash)
+{
+  return hash_bytes(rows.data(), rows.size() * sizeof(float4), hash);
+}
+
+/* In place of the features that pairs of single points do not have, as hash_carried has it. */
+uint64_t hash_zeros(size_t bytes, uint64_t hash)
+{
+  const std::vector<std::byte> zeros(bytes);
+  return hash_bytes(zeros.data(), zeros.size(), hash);
+}
+
+/* A world whose pairs have single points keeps their impulses as such, whatever others have brought into the batch. */
+void keep_single_impulses(std::vector<WorldRow> &rows)
+{
+  const std::vector<float4> impulses = impulses_in(rows);
+  for (WorldRow &row : rows)
+    if (row.buffer == Buffer::cached_single_impulse)
+      for (size_t i = 0; i < impulses.size(); ++i)
+        std::copy_n(reinterpret_cast<const std::byte *>(&impulses[i].x), sizeof(float), &row.bytes[i * sizeof(float)]);
+}
+
 } // namespace
 
 /* Whether the world alone would have the buffer: others may have brought it in. */
@@ -46,8 +89,14 @@ std::vector<Quarantine> Worlds::Group::quarantined(uint32_t number) const
 uint64_t Worlds::Group::state_hash(WorldReader &reader, uint32_t number, std::span<const Quarantine> own)
 {
   uint64_t hash = 0;
-  for (const auto &[buffer, bytes] : reader.rows_of(place_of(number)))
-    if (has_alone(number, buffer)) hash = hash_bytes(bytes.data(), bytes.size(), hash);
+  const std::vector<WorldRow> rows = reader.rows_of(place_of(number));
+  for (const WorldRow &row : rows) {
+    if (row.buffer == Buffer::cached_color && !has_alone(number, Buffer::cached_feature))
+      hash = hash_zeros(row.bytes.size(), hash);
+    if (row.buffer == Buffer::cached_single_impulse) hash = hash_rows(impulses_in(rows), hash);
+    else if (row.buffer != Buffer::cached_normal_impulse && has_alone(number, row.buffer))
+      hash = hash_bytes(row.bytes.data(), row.bytes.size(), hash);
+  }
   for (const Quarantine &taken : own) hash = hash_bytes(&taken.body, sizeof taken.body, hash);
   return hash;
 }
@@ -57,7 +106,8 @@ std::unique_ptr<World::Implementation> Worlds::Group::alone(uint32_t number, con
   const minicl::ExactFloatingPoint environment;
   engine().settle();
   WorldReader reader(engine().memory, engine().buffers.carried(), false);
-  const std::vector<WorldRow> rows = reader.rows_of(place_of(number));
+  std::vector<WorldRow> rows = reader.rows_of(place_of(number));
+  if (settings.specialise && !has_alone(number, Buffer::cached_normal_impulse)) keep_single_impulses(rows);
   SnapshotContents contents;
   contents.settings = settings;
   contents.scene = scene(number);

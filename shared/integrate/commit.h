@@ -110,13 +110,17 @@ SHARED void cache_normals_item(GLOBAL const float4 *manifold_normal, GLOBAL floa
 SHARED void cache_pairs_item(GLOBAL const Parameters *parameters, GLOBAL const uint *pair_b,
                              GLOBAL const uint *pair_color, GLOBAL const uint *manifold_feature, GLOBAL uint *cached_b,
                              GLOBAL uint *cached_color, GLOBAL uint *cached_feature,
-                             GLOBAL float4 *cached_normal_impulse, GLOBAL float4 *cached_friction_impulse, item_index i)
+                             write_cached_normal_impulses cached_normal_impulses,
+                             GLOBAL float4 *cached_friction_impulse, item_index i)
 {
   vec4 zero = make_vec4(R(0.0), R(0.0), R(0.0), R(0.0));
   store_uint(cached_b, i, load_uint(pair_b, i));
   store_uint(cached_color, i, load_uint(pair_color, i));
-  store_uint(cached_feature, i, load_uint(manifold_feature, i));
-  store_float4(cached_normal_impulse, i, zero);
+  store_real(cached_normal_impulses.single, i, R(0.0));
+  if (HAS_FEATURE(parameters, SEVERAL_POINTS)) {
+    store_uint(cached_feature, i, load_uint(manifold_feature, i));
+    store_float4(cached_normal_impulses.rows, i, zero);
+  }
   store_friction(parameters, cached_friction_impulse, i, zero);
 }
 
@@ -131,11 +135,14 @@ SHARED void clear_cached_item(GLOBAL float4 *rows, uint per_item, item_index i)
  * stored as a vector in world axes, because its tangents turn with the normal. */
 SHARED void cache_impulses_item(GLOBAL const Parameters *parameters, GLOBAL const uint *constraint_pair,
                                 GLOBAL const float4 *constraint_normal, GLOBAL const float4 *constraint_normal_impulse,
-                                GLOBAL const float4 *constraint_friction_impulse, GLOBAL float4 *cached_normal_impulse,
+                                GLOBAL const float4 *constraint_friction_impulse,
+                                write_cached_normal_impulses cached_normal_impulses,
                                 GLOBAL float4 *cached_friction_impulse, item_index i)
 {
   uint_lanes pair = load_uint(constraint_pair, i);
-  store_float4(cached_normal_impulse, pair, load_float4(constraint_normal_impulse, i));
+  vec4 normal = load_float4(constraint_normal_impulse, i);
+  if (HAS_FEATURE(parameters, SEVERAL_POINTS)) store_float4(cached_normal_impulses.rows, pair, normal);
+  else store_real(cached_normal_impulses.single, pair, normal.x);
   if (!HAS_FEATURE(parameters, FRICTION)) return;
   vec4 friction = load_float4(constraint_friction_impulse, i);
   tangents t = tangents_of(xyz(load_float4(constraint_normal, i)));

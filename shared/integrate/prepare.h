@@ -29,9 +29,8 @@ SHARED mask state_is_finite(read_bodies bodies, item_index i)
 
 SHARED void prepare_bodies_item(GLOBAL const Parameters *parameters, GLOBAL const float4 *body_mass, read_bodies bodies,
                                 GLOBAL uint *counts, GLOBAL float4 *solver_velocity, GLOBAL float4 *solver_delta_pose,
-                                GLOBAL float4 *warm_start_impulse, GLOBAL float4 *solver_inertia,
-                                GLOBAL float4 *solver_orientation, write_colored_bodies colored_bodies,
-                                GLOBAL uint *body_falls, item_index i)
+                                GLOBAL float4 *solver_inertia, GLOBAL float4 *solver_orientation,
+                                write_colored_bodies colored_bodies, GLOBAL uint *body_falls, item_index i)
 {
   spatial_velocity m = load_velocity(bodies.velocity, i);
   vec4 orientation = load_float4(bodies.orientation, i);
@@ -42,10 +41,6 @@ SHARED void prepare_bodies_item(GLOBAL const Parameters *parameters, GLOBAL cons
   store_velocity(solver_velocity, i, m);
   store_float4(solver_delta_pose, i * 2u, zero);
   store_float4(solver_delta_pose, i * 2u + 1u, zero);
-  if (HAS_FEATURE(parameters, SUBSTEP_WARM_START)) {
-    store_float4(warm_start_impulse, i * 2u, zero);
-    store_float4(warm_start_impulse, i * 2u + 1u, zero);
-  }
   if (HAS_FEATURE(parameters, GYROSCOPIC))
     store_inertia(solver_inertia, i, inertia_of(quat_from(orientation), inverse_moments));
   store_float4(solver_orientation, i, orientation);

@@ -11,26 +11,37 @@ typedef struct {
 } warm_start_impulses;
 
 SHARED warm_start_impulses take_warm_start(GLOBAL const Parameters *parameters, GLOBAL float4 *warm_start_impulse,
-                                           item_index i)
+                                           uint begins, item_index i)
 {
   real zero = (real)parameters->zero;
   warm_start_impulses taken = {make_vec3(zero, zero, zero), make_vec3(zero, zero, zero)};
   if (HAS_FEATURE(parameters, SUBSTEP_WARM_START)) {
     vec4 none = make_vec4(R(0.0), R(0.0), R(0.0), R(0.0));
-    taken.linear = xyz(load_float4(warm_start_impulse, i * 2u));
-    taken.angular = xyz(load_float4(warm_start_impulse, i * 2u + 1u));
+    if (begins == 0u) {
+      taken.linear = xyz(load_float4(warm_start_impulse, i * 2u));
+      taken.angular = xyz(load_float4(warm_start_impulse, i * 2u + 1u));
+    }
     store_float4(warm_start_impulse, i * 2u, none);
     store_float4(warm_start_impulse, i * 2u + 1u, none);
   }
   return taken;
 }
 
-/* solver_free_power tells integrate_positions whether constraints push the body. */
+/* Before the first substep of a scene with articulations, because their contacts gather for it. */
+SHARED void clear_warm_starts_item(GLOBAL float4 *warm_start_impulse, item_index i)
+{
+  vec4 none = make_vec4(R(0.0), R(0.0), R(0.0), R(0.0));
+  store_float4(warm_start_impulse, i * 2u, none);
+  store_float4(warm_start_impulse, i * 2u + 1u, none);
+}
+
+/* begins: nothing has been gathered in this step. Until then warm_start_impulse may be the memory of other buffers.
+ * solver_free_power tells integrate_positions whether constraints push the body. */
 SHARED void integrate_velocities_item(GLOBAL const Parameters *parameters, GLOBAL const float4 *body_mass,
                                       GLOBAL const memory_real *body_damping, GLOBAL const float4 *body_gravity,
                                       GLOBAL const uint *body_lock, GLOBAL const float4 *solver_inertia,
                                       GLOBAL float4 *solver_velocity, GLOBAL float4 *warm_start_impulse,
-                                      GLOBAL memory_real *solver_free_power, item_index i)
+                                      GLOBAL memory_real *solver_free_power, uint begins, item_index i)
 {
   spatial_velocity m = load_velocity(solver_velocity, i);
   real h = parameters->substep;
@@ -45,7 +56,7 @@ SHARED void integrate_velocities_item(GLOBAL const Parameters *parameters, GLOBA
   if (HAS_FEATURE(parameters, LOCKS)) /* forces may have pushed as well */
     m.linear = without_locked_axes(m.linear, linear_locks(load_uint(body_lock, i)));
   real free_power = dot3(gravity, m.linear);
-  warm_start_impulses taken = take_warm_start(parameters, warm_start_impulse, i);
+  warm_start_impulses taken = take_warm_start(parameters, warm_start_impulse, begins, i);
   m.linear = add_scaled(m.linear, taken.linear, m.inverse_mass);
   if (HAS_FEATURE(parameters, LOCKS)) m.linear = without_locked_axes(m.linear, linear_locks(load_uint(body_lock, i)));
   m.angular = add(m.angular, symmetric_times(load_inertia(parameters, solver_inertia, i, m), taken.angular));

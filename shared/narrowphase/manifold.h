@@ -125,6 +125,10 @@ SHARED void store_manifold_if(mask mine, manifold m, point_planes planes, write_
                       extend(choose3(touching, m.normal, nothing), choose(touching, m.impact_time, (real)R(0.0))));
   for (uint k = 0; k < planes.points; ++k)
     store_listed_row_if(mine, manifolds.points, planes.stride * k + pair, packed[k]);
+  if (planes.points == 1u) {
+    store_uint_if(mine, manifolds.count, pair, count);
+    return;
+  }
   store_uint_if(mine, manifolds.count, pair, count);
   store_uint_if(mine, manifolds.feature, pair, choose(touching, (m.code << 8u) | slots, (uint_lanes)0u));
 }
@@ -133,7 +137,8 @@ SHARED void store_manifold_if(mask mine, manifold m, point_planes planes, write_
 SHARED manifold load_manifold(point_planes planes, write_manifolds manifolds, item_index i)
 {
   vec4 normal = load_float4(manifolds.normal, i);
-  uint_lanes count = load_uint(manifolds.count, i) & (TO_FOLLOW - 1u), feature = load_uint(manifolds.feature, i);
+  uint_lanes count = load_uint(manifolds.count, i) & (TO_FOLLOW - 1u), feature = 0u;
+  if (planes.points > 1u) feature = load_uint(manifolds.feature, i);
   mask touching = count > 0u;
   manifold m = single_contact(xyz(normal), make_vec3(R(0.0), R(0.0), R(0.0)), R(0.0), touching & (!touching));
   m.impact_time = normal.w;
@@ -158,7 +163,7 @@ SHARED void store_no_manifold(point_planes planes, write_manifolds manifolds, ui
   manifolds.normal[i] = nothing;
   for (uint k = 0u; k < planes.points; ++k) manifolds.points[planes.stride * k + i] = nothing;
   manifolds.count[i] = 0u;
-  manifolds.feature[i] = 0u;
+  if (planes.points > 1u) manifolds.feature[i] = 0u;
 }
 
 #endif

@@ -299,7 +299,8 @@ SHARED contact_setup begin_setup(GLOBAL const Parameters *parameters, GLOBAL con
   s.at = at;
   s.wanted = at != (uint_lanes)INDEX_NONE;
   s.points = load_uint(manifolds.count, pair);
-  s.feature = load_uint(manifolds.feature, pair);
+  s.feature = 0u;
+  if (HAS_FEATURE(parameters, SEVERAL_POINTS)) s.feature = load_uint(manifolds.feature, pair);
   s.bodies = load_body_pair(parameters, part_pairs.a, part_pairs.b, touching, pair);
   s.size = size_between(touching.shape, s.bodies.a, s.bodies.b);
   uint_lanes shape_a = shape_in_pair(parameters, part_pairs.leaf, pair, 0u, s.bodies.a),
@@ -320,7 +321,7 @@ SHARED contact_setup begin_setup(GLOBAL const Parameters *parameters, GLOBAL con
 }
 
 /* The impulses of the same pair in the last step; 0 for a new one, so that no other pair's numbers decide the signs of
- * zeros. */
+ * zeros. Where the first body came whose pairs have several points, the others still have their single impulse. */
 typedef struct {
   mask is_cached;
   uint_lanes feature;
@@ -333,8 +334,13 @@ SHARED old_impulses load_old_impulses(GLOBAL const Parameters *parameters, read_
   mask is_cached = cached != (uint_lanes)INDEX_NONE;
   uint_lanes from = choose(is_cached, cached, (uint_lanes)0u);
   vec4 none = make_vec4(R(0.0), R(0.0), R(0.0), R(0.0));
-  old_impulses old = {is_cached, load_uint(cached_contacts.feature, from),
-                      load_float4(cached_contacts.normal_impulse, from), none};
+  real single = load_real(cached_contacts.single_impulse, from);
+  old_impulses old = {is_cached, 0u, make_vec4(single, R(0.0), R(0.0), R(0.0)), none};
+  if (HAS_FEATURE(parameters, SEVERAL_POINTS)) {
+    old.feature = load_uint(cached_contacts.feature, from);
+    old.normal = load_float4(cached_contacts.normal_impulse, from);
+    old.normal.x = choose(single > R(0.0), single, old.normal.x);
+  }
   if (HAS_FEATURE(parameters, FRICTION))
     old.friction = choose4(is_cached, load_float4(cached_contacts.friction_impulse, from), none);
   return old;

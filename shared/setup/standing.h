@@ -219,8 +219,8 @@ SHARED void prepare_and_weigh_contacts_item(GLOBAL const Parameters *parameters,
   else pair = load_uint(contact_orders.pair, i);
   if (!any_of(at != (uint_lanes)INDEX_NONE)) return;
   point_planes planes = planes_of(counts);
-  read_cached_contacts cached_contacts = {cached_loads.of_pair, cached_loads.feature, cached_loads.normal_impulse,
-                                          cached_loads.friction_impulse};
+  read_cached_contacts cached_contacts = {cached_loads.of_pair, cached_loads.feature, cached_loads.single_impulse,
+                                          cached_loads.normal_impulse, cached_loads.friction_impulse};
   points_setup points;
   contact_setup s = prepare_contact(parameters, material, touching_bodies, part_pairs, manifolds, cached_contacts,
                                     planes, constraints, borne_bodies.falls, &points, at, pair);

@@ -118,12 +118,15 @@ SHARED void avbd_prepare_item(GLOBAL const Parameters *parameters, GLOBAL const 
                               write_duals duals, item_index i)
 {
   point_planes planes = planes_of(counts);
-  uint_lanes pair = load_uint(constraint_pair, i), cached = load_uint(pair_cached, pair),
-             feature = load_uint(manifold_feature, pair);
+  uint_lanes pair = load_uint(constraint_pair, i), cached = load_uint(pair_cached, pair), feature = 0u,
+             old_feature = 0u;
   mask is_cached = cached != (uint_lanes)INDEX_NONE;
   uint_lanes from = choose(is_cached, cached, (uint_lanes)0u);
   is_cached = is_cached & (load_uint(cached_color, from) != (uint_lanes)COLOR_INACTIVE);
-  uint_lanes old_feature = load_uint(cached_feature, from);
+  if (planes.points > 1u) {
+    feature = load_uint(manifold_feature, pair);
+    old_feature = load_uint(cached_feature, from);
+  }
   vec4 old = load_float4(cached_penalty, from * 2u), old_friction = load_float4(cached_penalty, from * 2u + 1u);
   real penalty[4];
   for (uint k = 0; k < 4u; ++k)

@@ -62,6 +62,18 @@ Settings with_reports(Settings settings)
 
 } // namespace
 
+TEST_CASE("a scene of balls takes at most two fifths of the memory that every feature takes")
+{
+  Settings specialised, everything;
+  specialised.broadphase = everything.broadphase = Broadphase::grid;
+  everything.specialise = false;
+  const Scene scene = load_scene("spheres:n=20000");
+  World balls(scene, specialised, {"tbb", {}}), whole(scene, everything, {"tbb", {}});
+  balls.step();
+  whole.step();
+  CHECK(balls.memory().total_bytes() <= 0.4 * whole.memory().total_bytes());
+}
+
 TEST_CASE("shared memory changes no bit: scenes")
 {
   for (const std::string &scene : small_scenes()) require_same_bits(load_scene(scene), {}, 12);

@@ -41,6 +41,42 @@ TEST_CASE("parity on CPU: specialised and all features")
   }
 }
 
+/* The rows of further points come as zeros, also for pairs that sleep. */
+TEST_CASE("balls that a box joins, awake or asleep, have the bits of the build that holds everything")
+{
+  Scene scene = load_scene("spheres:n=64");
+  scene.shapes.push_back(box_shape(0.5f, 0.5f, 0.5f));
+  for (Body &body : scene.bodies)
+    body.linear_damping = body.angular_damping = 2; /* so that they do not roll for ever */
+  Settings settings;
+  settings.sleeping = GENERATE(false, true);
+  Settings everything = settings;
+  everything.specialise = false;
+  World balls(scene, settings, {"serial", {}}), whole(scene, everything, {"serial", {}});
+  const auto run = [&](int steps) {
+    for (int k = 0; k < steps; ++k) {
+      balls.step();
+      whole.step();
+    }
+    CHECK(balls.body_hash() == whole.body_hash());
+    if (!settings.sleeping) CHECK(balls.state_hash() == whole.state_hash());
+  };
+  run(settings.sleeping ? 400 : 60);
+  CHECK((balls.statistics().asleep > 0) == settings.sleeping);
+  for (const Buffer further : {Buffer::cached_feature, Buffer::cached_normal_impulse}) {
+    CHECK(balls.memory().bytes(further) == 0);
+    CHECK(whole.memory().bytes(further) > 0);
+  }
+  Body box;
+  box.shape = static_cast<uint32_t>(scene.shapes.size() - 1);
+  box.position = {0, 8, 0};
+  balls.create_body(box);
+  whole.create_body(box);
+  run(1);
+  run(120);
+  CHECK(balls.memory().bytes(Buffer::cached_normal_impulse) > 0);
+}
+
 /* So a library that leaves out the kernels of other features (cmake/Features.cmake) has all that the world launches. */
 TEST_CASE("every kernel of a world is of a feature that the world has, or of none")
 {
