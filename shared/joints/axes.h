@@ -217,7 +217,7 @@ SHARED real solve_stop(GLOBAL const Parameters *parameters, axis_row *r, const j
                        real old, uint pass)
 {
   real change = stop_change(parameters, r, open, old, pass);
-  if (any_of(held)) change = choose(held, hold_change(parameters, r, open, old, pass), change);
+  change = choose(held, hold_change(parameters, r, open, old, pass), change);
   mask springy = axis->limit_stiffness > R(0.0);
   if (any_of(springy)) change = choose(springy, soft_stop_change(parameters, r, axis, open, held, old), change);
   real impulse = old + change;
@@ -278,25 +278,23 @@ SHARED real solve_rows_of_axis(GLOBAL const Parameters *parameters, axis_row *r,
   return sum;
 }
 
-SHARED joint solve_axis(GLOBAL const Parameters *parameters, joint j, joint_frames f, const swing_twist *rotation,
-                        const joint_axis *axis, vec4 *kept, uint pass)
+SHARED joint solve_axis(GLOBAL const Parameters *parameters, joint j, joint_frames f, const joint_axis *axis,
+                        vec4 *kept, uint pass)
 {
-  axis_row r = row_of_coordinate(j, coordinate_in_rotation(j, f, rotation, axis->kind));
+  axis_row r = row_of_axis(j, f, axis->kind);
   real sum = solve_rows_of_axis(parameters, &r, axis, kept, pass);
   return apply_along(j, &r, sum);
 }
 
-/* All axes of a joint share its rotation, which takes roots and divisions. */
 SHARED joint solve_axes(GLOBAL const Parameters *parameters, joint j, joint_frames f, read_joint_axes axes,
                         GLOBAL float4 *impulse, uint pass, item_index i)
 {
-  swing_twist rotation = swing_twist_of(f);
   for (uint k = 0; k < parameters->joint_axes; ++k) {
     joint_axis axis = load_axis(parameters, axes, k, i);
     mask wanted = axis.kind != (uint_lanes)(uint)JOINT_AXIS_NONE;
     if (!any_of(wanted)) continue;
     vec4 kept = load_float4(impulse, joint_plane(parameters, k) + i);
-    j = with_joint_velocities_if(wanted, j, solve_axis(parameters, j, f, &rotation, &axis, &kept, pass));
+    j = with_joint_velocities_if(wanted, j, solve_axis(parameters, j, f, &axis, &kept, pass));
     store_float4_if(wanted, impulse, joint_plane(parameters, k) + i, kept);
   }
   return j;
@@ -307,12 +305,11 @@ typedef struct {
   vec3 impulse, moment_a, moment_b;
 } joint_wrench;
 
-SHARED joint_wrench with_wrench_of_axis(joint j, joint_frames f, const swing_twist *rotation, uint_lanes kind, real sum,
-                                        joint_wrench w)
+SHARED joint_wrench with_wrench_of_axis(joint j, joint_frames f, uint_lanes kind, real sum, joint_wrench w)
 {
   mask wanted = kind != (uint_lanes)(uint)JOINT_AXIS_NONE;
   if (!any_of(wanted)) return w;
-  axis_row r = row_of_coordinate(j, coordinate_in_rotation(j, f, rotation, kind));
+  axis_row r = row_of_axis(j, f, kind);
   w.impulse = choose3(wanted, add_scaled(w.impulse, r.at.direction, sum), w.impulse);
   w.moment_a = choose3(wanted, add_scaled(w.moment_a, r.moment_a, sum), w.moment_a);
   w.moment_b = choose3(wanted, add_scaled(w.moment_b, r.moment_b, sum), w.moment_b);
@@ -323,11 +320,9 @@ SHARED joint_wrench with_wrench_of_axes(GLOBAL const Parameters *parameters, joi
                                         read_joint_axes axes, GLOBAL const float4 *impulse, joint_wrench w,
                                         item_index i)
 {
-  swing_twist rotation = swing_twist_of(f);
   for (uint k = 0; k < parameters->joint_axes; ++k) {
     vec4 kept = load_float4(impulse, joint_plane(parameters, k) + i);
-    w = with_wrench_of_axis(j, f, &rotation, load_uint(axes.kind, joint_plane(parameters, k) + i),
-                            (kept.x + kept.y) + kept.z, w);
+    w = with_wrench_of_axis(j, f, load_uint(axes.kind, joint_plane(parameters, k) + i), (kept.x + kept.y) + kept.z, w);
   }
   return w;
 }

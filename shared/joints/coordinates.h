@@ -112,54 +112,26 @@ SHARED vec3 axis_around_cone(joint_swing s, real across, vec3 cone)
   return make_vec3(-across, s.swing_w * cone.z, -(s.swing_w * cone.y));
 }
 
-/* What the rotations of one joint share. across: the sine of half of the angle of the cone. twist: its axis, in axes of
- * frame a. */
-typedef struct {
-  joint_swing swing;
-  real across;
-  vec3 twist;
-} swing_twist;
-
-SHARED swing_twist swing_twist_of(joint_frames f)
-{
-  swing_twist r;
-  r.swing = swing_of(f.relative);
-  r.across = square_root(r.swing.swing_y * r.swing.swing_y + r.swing.swing_z * r.swing.swing_z);
-  r.twist = twist_axis(r.swing.x_of_b);
-  return r;
-}
-
-/* The turns that change the two angles of the swing. */
-SHARED vec3 choose_swing_axis(const swing_twist *rotation, mask is_y, mask is_z, vec3 other)
-{
-  joint_swing s = rotation->swing;
-  real share = R(1.0) / (R(1.0) + s.swing_w), y = s.swing_y * share, z = s.swing_z * share;
-  vec3 turn = choose3(is_y, swing_y_axis(y, z, rotation->twist), other);
-  return choose3(is_z, swing_z_axis(y, z, rotation->twist), turn);
-}
-
-/* The turns that change the angle of the cone, or go around it. */
-SHARED vec3 choose_cone_axis(const swing_twist *rotation, mask is_cone, mask is_around, vec3 other)
-{
-  vec3 cone = cone_axis(rotation->swing, rotation->across);
-  vec3 turn = choose3(is_cone, cone, other);
-  return choose3(is_around, axis_around_cone(rotation->swing, rotation->across, cone), turn);
-}
-
 /* The rotations; in axes of frame a. */
-SHARED joint_coordinate rotation_coordinate(joint_frames f, const swing_twist *rotation, uint_lanes kind)
+SHARED joint_coordinate rotation_coordinate(joint_frames f, uint_lanes kind)
 {
-  joint_swing s = rotation->swing;
-  joint_coordinate c = {R(0.0), make_vec3(R(0.0), R(0.0), R(0.0)), rotation->twist};
+  joint_swing s = swing_of(f.relative);
+  real across = square_root(s.swing_y * s.swing_y + s.swing_z * s.swing_z);
+  vec3 none = make_vec3(R(0.0), R(0.0), R(0.0));
+  vec3 twist = twist_axis(s.x_of_b), cone = cone_axis(s, across);
+  real share = R(1.0) / (R(1.0) + s.swing_w), y = s.swing_y * share, z = s.swing_z * share;
+  joint_coordinate c = {R(0.0), none, twist};
   mask is_y = kind == (uint_lanes)(uint)JOINT_AXIS_SWING_Y, is_z = kind == (uint_lanes)(uint)JOINT_AXIS_SWING_Z,
        is_cone = kind == (uint_lanes)(uint)JOINT_AXIS_CONE, is_around = kind == (uint_lanes)(uint)JOINT_AXIS_AROUND,
        is_twist = kind == (uint_lanes)(uint)JOINT_AXIS_TWIST;
   if (any_of(is_twist)) c.value = choose(is_twist, twist_of(f.relative), c.value);
   if (any_of(is_y)) c.value = choose(is_y, R(4.0) * arc_tangent(s.swing_y, R(1.0) + s.swing_w), c.value);
   if (any_of(is_z)) c.value = choose(is_z, R(4.0) * arc_tangent(s.swing_z, R(1.0) + s.swing_w), c.value);
-  if (any_of(is_cone)) c.value = choose(is_cone, R(2.0) * arc_tangent(rotation->across, s.swing_w), c.value);
-  if (any_of(is_y | is_z)) c.turn = choose_swing_axis(rotation, is_y, is_z, c.turn);
-  if (any_of(is_cone | is_around)) c.turn = choose_cone_axis(rotation, is_cone, is_around, c.turn);
+  if (any_of(is_cone)) c.value = choose(is_cone, R(2.0) * arc_tangent(across, s.swing_w), c.value);
+  c.turn = choose3(is_y, swing_y_axis(y, z, twist), c.turn);
+  c.turn = choose3(is_z, swing_z_axis(y, z, twist), c.turn);
+  c.turn = choose3(is_cone, cone, c.turn);
+  c.turn = choose3(is_around, axis_around_cone(s, across, cone), c.turn);
   return c;
 }
 
@@ -211,38 +183,22 @@ SHARED joint_coordinate choose_coordinate(mask m, joint_coordinate a, joint_coor
   return c;
 }
 
-SHARED mask is_angle(uint_lanes kind) { return is_rotation(kind) | (kind == (uint_lanes)(uint)JOINT_AXIS_CROSS); }
-
-SHARED joint_coordinate length_coordinate(joint j, joint_frames f, uint_lanes kind)
+SHARED joint_coordinate coordinate_of(joint j, joint_frames f, uint_lanes kind)
 {
   joint_coordinate c = direction_coordinate(j, f, kind);
-  mask is_distance = kind == (uint_lanes)(uint)JOINT_AXIS_DISTANCE;
+  mask turns = is_rotation(kind), crosses = kind == (uint_lanes)(uint)JOINT_AXIS_CROSS,
+       is_distance = kind == (uint_lanes)(uint)JOINT_AXIS_DISTANCE;
   if (any_of(is_distance)) c = choose_coordinate(is_distance, distance_coordinate(j, f), c);
-  return c;
-}
-
-/* rotation: swing_twist_of(f), which all coordinates of a joint share. */
-SHARED joint_coordinate coordinate_in_rotation(joint j, joint_frames f, const swing_twist *rotation, uint_lanes kind)
-{
-  joint_coordinate c = length_coordinate(j, f, kind);
-  if (any_of(is_angle(kind))) {
-    joint_coordinate r = rotation_coordinate(f, rotation, kind);
-    mask steers = kind == (uint_lanes)(uint)JOINT_AXIS_TURN, spins = kind == (uint_lanes)(uint)JOINT_AXIS_SPIN,
-         crosses = kind == (uint_lanes)(uint)JOINT_AXIS_CROSS;
+  if (any_of(turns | crosses)) {
+    joint_coordinate r = rotation_coordinate(f, kind);
+    mask steers = kind == (uint_lanes)(uint)JOINT_AXIS_TURN, spins = kind == (uint_lanes)(uint)JOINT_AXIS_SPIN;
     if (any_of(steers)) r = choose_coordinate(steers, turn_coordinate(f), r);
     if (any_of(spins)) r = choose_coordinate(spins, spin_coordinate(f), r);
     if (any_of(crosses)) r = choose_coordinate(crosses, cross_coordinate(f), r);
     r.turn = rotate(f.axes, r.turn);
-    c = choose_coordinate(is_angle(kind), r, c);
+    c = choose_coordinate(turns | crosses, r, c);
   }
   return c;
-}
-
-SHARED joint_coordinate coordinate_of(joint j, joint_frames f, uint_lanes kind)
-{
-  if (!any_of(is_angle(kind))) return length_coordinate(j, f, kind);
-  swing_twist rotation = swing_twist_of(f);
-  return coordinate_in_rotation(j, f, &rotation, kind);
 }
 
 #endif

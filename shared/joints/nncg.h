@@ -78,10 +78,9 @@ SHARED joint_wrench with_changed_axes(GLOBAL const Parameters *parameters, joint
                                       read_joint_axes axes, GLOBAL const float4 *impulse,
                                       GLOBAL const float4 *nncg_joint_axis, joint_wrench w, item_index i)
 {
-  swing_twist rotation = swing_twist_of(f);
   for (uint k = 0; k < parameters->joint_axes; ++k) {
     item_index at = joint_plane(parameters, k) + i;
-    w = with_wrench_of_axis(j, f, &rotation, load_uint(axes.kind, at),
+    w = with_wrench_of_axis(j, f, load_uint(axes.kind, at),
                             sum_of_change(load_float4(nncg_joint_axis, at), load_float4(impulse, at)), w);
   }
   return w;
@@ -134,7 +133,6 @@ SHARED joint_wrench advance_axes(GLOBAL const Parameters *parameters, joint j, j
                                  read_joint_axes axes, GLOBAL float4 *impulse, GLOBAL float4 *nncg_joint_axis,
                                  joint_wrench w, item_index i)
 {
-  swing_twist rotation = swing_twist_of(f);
   for (uint k = 0; k < parameters->joint_axes; ++k) {
     item_index at = joint_plane(parameters, k) + i;
     vec4 before = load_float4(nncg_joint_axis, at), now = load_float4(impulse, at);
@@ -142,7 +140,7 @@ SHARED joint_wrench advance_axes(GLOBAL const Parameters *parameters, joint j, j
     vec4 next = extend(add(xyz(now), step), now.w);
     store_float4(impulse, at, next);
     store_float4(nncg_joint_axis, at, next);
-    w = with_wrench_of_axis(j, f, &rotation, load_uint(axes.kind, at), (step.x + step.y) + step.z, w);
+    w = with_wrench_of_axis(j, f, load_uint(axes.kind, at), (step.x + step.y) + step.z, w);
   }
   return w;
 }
