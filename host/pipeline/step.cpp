@@ -170,10 +170,15 @@ private:
     }
   }
 
-  /* Neither parts of compounds nor sleepers have cores. */
+  /* Finding cores costs a device more than the tests of few far pairs: of 10,000 people on a plane, a third of whose
+   * pairs touch, a step took 3.08 ms in place of 2.82 on an H200; of a pile an eighth touches. */
+  bool are_mostly_far() const { return plan().known[COUNT_PAIRS] / 4 > plan().known[COUNT_CONSTRAINTS]; }
+
+  /* Neither parts of compounds nor sleepers have cores; and the pairs of small worlds are few. */
   void list_pairs_of_kinds(bool with_sleepers)
   {
-    const bool by_core = has(FEATURE_CAPSULE_CAPSULE) && !has(FEATURE_TREES) && !with_sleepers;
+    const bool by_core = has(FEATURE_CAPSULE_CAPSULE) && !has(FEATURE_TREES) && !has(FEATURE_WORLDS) &&
+                         !with_sleepers && are_mostly_far();
     if (by_core) run(Kernel::find_cores);
     list_pairs(launcher(), plan().capacity_pairs, by_core);
   }
