@@ -125,12 +125,9 @@ SHARED void store_manifold_if(mask mine, manifold m, point_planes planes, write_
                       extend(choose3(touching, m.normal, nothing), choose(touching, m.impact_time, (real)R(0.0))));
   for (uint k = 0; k < planes.points; ++k)
     store_listed_row_if(mine, manifolds.points, planes.stride * k + pair, packed[k]);
-  if (planes.points == 1u) {
-    store_uint_if(mine, manifolds.count, pair, count);
-    return;
-  }
+  GLOBAL uint *features = planes.points > 1u ? manifolds.feature : manifolds.count; /* that of a single point is lost */
+  store_uint_if(mine, features, pair, choose(touching, (m.code << 8u) | slots, (uint_lanes)0u));
   store_uint_if(mine, manifolds.count, pair, count);
-  store_uint_if(mine, manifolds.feature, pair, choose(touching, (m.code << 8u) | slots, (uint_lanes)0u));
 }
 
 /* The manifold that was stored. Points that are not kept hold zeros. */
