@@ -85,18 +85,8 @@ SHARED mask keeps_within_cores(uint_lanes kind)
          (kind == (uint_lanes)(uint)PAIR_KIND_SPHERE_CAPSULE);
 }
 
-/* Every pair is cleared, because rows that are written in order cost less than some of them. The kernels of the pairs
- * that are near write theirs later. */
-SHARED void store_no_contacts(point_planes planes, write_manifolds manifolds, item_index i)
-{
-  vec4 nothing = no_point();
-  store_float4(manifolds.normal, i, nothing);
-  for (uint k = 0u; k < planes.points; ++k) store_float4(manifolds.points, planes.stride * k + i, nothing);
-  store_uint(manifolds.count, i, (uint_lanes)0u);
-  store_uint(manifolds.feature, i, (uint_lanes)0u);
-}
-
-/* by_core: whether pairs that are far are dropped. */
+/* by_core: whether pairs that are far are dropped. Every pair is cleared then, because rows that are written in order
+ * cost less than some of them; the kernels of the pairs that are near write theirs later. */
 SHARED void find_pair_kinds_item(GLOBAL const Parameters *parameters, read_part_pairs pairs, GLOBAL const uint *flags,
                                  GLOBAL const float4 *cores, GLOBAL const uint *counts, GLOBAL uint *kinds,
                                  write_manifolds manifolds, uint by_core, item_index i)
@@ -105,7 +95,7 @@ SHARED void find_pair_kinds_item(GLOBAL const Parameters *parameters, read_part_
   uint_lanes kind = pair_kind(load_uint(flags, shape_in_pair(parameters, pairs.leaf, i, 0u, a)),
                               load_uint(flags, shape_in_pair(parameters, pairs.leaf, i, 1u, b)));
   if (HAS_FEATURE(parameters, CAPSULE_CAPSULE) && by_core != 0u) {
-    store_no_contacts(planes_of(counts), manifolds, i);
+    store_no_manifold(planes_of(counts), manifolds, i);
     mask tested = keeps_within_cores(kind);
     if (any_of(tested))
       kind = choose(tested & cores_are_far(parameters, cores, a, b), (uint_lanes)(uint)PAIR_KIND_NONE, kind);

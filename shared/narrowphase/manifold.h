@@ -153,14 +153,13 @@ SHARED manifold load_manifold(point_planes planes, write_manifolds manifolds, it
 }
 
 /* Stores a manifold without points, with the same result as store_manifold_if. */
-SHARED void store_no_manifold(point_planes planes, write_manifolds manifolds, uint i)
+SHARED void store_no_manifold(point_planes planes, write_manifolds manifolds, item_index i)
 {
-  float4 nothing;
-  nothing.x = nothing.y = nothing.z = nothing.w = R(0.0);
-  manifolds.normal[i] = nothing;
-  for (uint k = 0u; k < planes.points; ++k) manifolds.points[planes.stride * k + i] = nothing;
-  manifolds.count[i] = 0u;
-  if (planes.points > 1u) manifolds.feature[i] = 0u;
+  vec4 nothing = no_point();
+  store_float4(manifolds.normal, i, nothing);
+  for (uint k = 0u; k < planes.points; ++k) store_float4(manifolds.points, planes.stride * k + i, nothing);
+  store_uint(manifolds.count, i, (uint_lanes)0u);
+  if (planes.points > 1u) store_uint(manifolds.feature, i, (uint_lanes)0u);
 }
 
 #endif
