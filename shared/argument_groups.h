@@ -664,6 +664,12 @@ typedef struct {
   BUFFER(tree_contact, uint, contact)                                                                                  \
   BUFFER(tree_colors, uint, colors)
 
+/* The rows of their contacts, in the freedoms of their trees: articulations/contact_rows.h. */
+#define GROUP_contact_freedoms(BUFFER)                                                                                 \
+  BUFFER(contact_row, float4, row)                                                                                     \
+  BUFFER(contact_term, float4, term)                                                                                   \
+  BUFFER(contact_freedom, uint, freedom)
+
 /* Bodies where and as fast as a substep has taken them. */
 #define GROUP_moved_bodies(BUFFER)                                                                                     \
   BUFFER(solver_velocity, float4, velocity)                                                                            \
@@ -679,6 +685,12 @@ typedef struct {
 typedef struct {
   GROUP_link_states(WRITE_MEMBER)
 } write_link_states;
+typedef struct {
+  GROUP_contact_freedoms(READ_MEMBER)
+} read_contact_freedoms;
+typedef struct {
+  GROUP_contact_freedoms(WRITE_MEMBER)
+} write_contact_freedoms;
 typedef struct {
   GROUP_moved_bodies(WRITE_MEMBER)
 } write_moved_bodies;

@@ -44,6 +44,7 @@ SHARED vec4 make_vec4(real x, real y, real z, real w)
   return v;
 }
 SHARED vec4 extend(vec3 v, real w) { return make_vec4(v.x, v.y, v.z, w); }
+SHARED vec4 add4(vec4 a, vec4 b) { return make_vec4(a.x + b.x, a.y + b.y, a.z + b.z, a.w + b.w); }
 SHARED vec3 xyz(vec4 v) { return make_vec3(v.x, v.y, v.z); }
 
 SHARED vec3 add(vec3 a, vec3 b) { return make_vec3(a.x + b.x, a.y + b.y, a.z + b.z); }
@@ -162,5 +163,8 @@ SHARED symmetric3 rotate_diagonal(mat3 m, vec3 d)
                   dot3(x, m.y),         dot3(x, m.z),         dot3(y, m.z)};
   return s;
 }
+
+/* The number of the lowest bit of x, which has one. */
+SHARED uint lowest_bit(uint x) { return 31u - (uint)LEADING_ZEROS(x & (0u - x)); }
 
 #endif

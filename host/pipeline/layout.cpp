@@ -64,6 +64,7 @@ size_t items_of(Capacity capacity, const Sizes &sizes)
   case Capacity::MOVED_ROWS: return std::max(sizes.bodies, sizes.joints);
   case Capacity::SLEEPERS: return size_t{sizes.bodies} + MOST_UNSORTED_SLEEPERS;
   case Capacity::PAIRS: return sizes.pairs;
+  case Capacity::CONTACT_FREEDOMS: return size_t{sizes.pairs} * sizes.tree_freedoms;
   case Capacity::EVENTS: return 2 * size_t{sizes.pairs}; /* at most the pairs of this step and of the last */
   case Capacity::PAIRS_PLUS_ONE: return size_t{sizes.pairs} + 1;
   case Capacity::CELLS: return size_t{sizes.cells} + 1;

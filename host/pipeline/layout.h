@@ -23,6 +23,7 @@ struct Sizes {
   uint32_t articulations = 0; /* with room for those that are missing beside others: host/scene/tree_places.h */
   uint32_t links = 0;         /* of all of these */
   size_t path_entries = 0;    /* of all of these that have tables of paths */
+  uint32_t tree_freedoms = 0; /* the most of one of these */
   uint32_t joined_pairs = 0;  /* entries of their table */
   uint32_t pairs = 0;         /* capacity */
   uint32_t cells = 0;         /* capacity */

@@ -87,10 +87,21 @@ void StepLaunches::solve_mixed_trees(uint32_t pass)
   if (plan_.colors > LINK_COLORS) run(Kernel::solve_link_contacts_in_order, {pass});
 }
 
+/* Trees that have their contacts for themselves: shared/articulations/tree_contacts.h. */
+void StepLaunches::solve_unmixed_trees(uint32_t pass)
+{
+  if (pass != PASS_WARM_STARTING) {
+    run(Kernel::prepare_tree_paths, {pass});
+    run(Kernel::project_tree_contacts, {pass});
+    run(Kernel::solve_tree_contacts, {pass});
+  }
+  if (pass == PASS_WARM_STARTING || pass == PASS_RELAXING) run(Kernel::warm_start_tree_contacts);
+}
+
 void StepLaunches::push_links(uint32_t pass)
 {
   if (pass != PASS_BOUNCING) solve_link_joints(pass);
-  run(Kernel::solve_tree_contacts, {pass});
+  solve_unmixed_trees(pass);
   solve_mixed_trees(pass);
 }
 

@@ -82,6 +82,7 @@ private:
   void launch_color(Kernel kernel, uint32_t color, const Values &values);
   void push_links(uint32_t pass);
   void solve_link_joints(uint32_t pass);
+  void solve_unmixed_trees(uint32_t pass);
   void solve_mixed_trees(uint32_t pass);
 
   Launcher &launcher_;

@@ -2,6 +2,7 @@
  * articulations with. */
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -32,6 +33,7 @@ struct JointedLinks {
   std::vector<uint32_t> freedoms;           /* by articulation that has a table of paths; of others 0 */
   PathPlaces paths;                         /* shared/articulations/path.h */
 
+  uint32_t most_freedoms() const { return freedoms.empty() ? 0 : *std::max_element(freedoms.begin(), freedoms.end()); }
   bool has_base(uint32_t body) const { return body < bases.size() && bases[body]; }
   bool has_body(uint32_t body) const { return body < of_body.size() && of_body[body] != no_link; }
 };

@@ -139,6 +139,7 @@ Sizes World::Implementation::sizes() const
           .articulations = links.room.trees,
           .links = links.room.links,
           .path_entries = links.paths.entries,
+          .tree_freedoms = links.most_freedoms(),
           .joined_pairs = joint_graph.joined_pairs,
           .pairs = plan.capacity_pairs,
           .cells = plan.capacity_cells,

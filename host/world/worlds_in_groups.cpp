@@ -66,8 +66,9 @@ void check_materials(std::span<const Scene> scenes)
 /* --- the size of a group ----------------------------------------------------------------------------------------- */
 /* With 64 humanoids of 14 bodies each, or 100 piles of ten, a thread finds what it wrote in its own cache again. */
 constexpr uint32_t bodies_of_group = 1024;
-/* Trees of equal worlds go through their kernels in lanes of so many. */
-constexpr uint32_t worlds_beside = 8;
+/* Trees of equal worlds go through their kernels in lanes of so many; what is left over takes as long as all of
+ * them. */
+constexpr uint32_t worlds_beside = 16;
 /* So many groups for each thread, because one may have more contacts than another. */
 constexpr uint32_t groups_of_thread = 4;
 /* Every group has the triangles of its scenes for itself. */
@@ -86,6 +87,7 @@ uint32_t worlds_of_group_of_tests()
 }
 
 uint32_t rounded_up(uint32_t number, uint32_t to) { return (number + to - 1) / to * to; }
+uint32_t rounded(uint32_t number, uint32_t to) { return (number + to / 2) / to * to; }
 
 bool has_many_triangles(std::span<const Scene> scenes)
 {
@@ -105,14 +107,14 @@ std::optional<NamedThreads> threads_for(std::span<const Scene> scenes, const Set
   return threads_named(placement.on);
 }
 
-/* One thread does nothing sooner in groups, and few large worlds are done sooner by threads that share each kernel. */
+/* Few large worlds are done sooner by threads that share each kernel. */
 uint32_t worlds_of_group(uint32_t worlds, uint32_t bodies, uint32_t threads)
 {
   if (const uint32_t wanted = worlds_of_group_of_tests()) return std::min(wanted, worlds);
-  if (threads == 1) return worlds;
-  const uint32_t for_cache = std::max(1u, bodies_of_group / std::max(bodies, 1u));
+  const uint32_t few = std::max(1u, bodies_of_group / std::max(bodies, 1u));
+  const uint32_t for_cache = few < worlds_beside ? few : rounded(few, worlds_beside);
   const uint32_t for_threads = (worlds + groups_of_thread * threads - 1) / (groups_of_thread * threads);
-  const uint32_t each = std::min(for_cache, rounded_up(for_threads, worlds_beside));
+  const uint32_t each = threads == 1 ? for_cache : std::min(for_cache, rounded_up(for_threads, worlds_beside));
   return worlds / each >= threads && worlds > each ? each : worlds;
 }
 

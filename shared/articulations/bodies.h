@@ -19,6 +19,9 @@
 /* Records of tree_contact and of tree_colors (tree_contacts.h). */
 #define TREE_COLORS 64u
 #define TREE_COLOR_WORDS 4u
+/* The first word of tree_colors while contacts are solved: whether the tree has its table of paths where it stands,
+ * from this pass or from one before. */
+enum { PATHS_ARE_MISSING, PATHS_ARE_NEW, PATHS_ARE_KEPT };
 /* Words of articulation_place: block, item, stride (tree.h), the number of links; of a tree that has a table of paths
  * where that of its block begins, in entries, the most entries of a link, and the freedoms of the tree; of others 0;
  * and the first of the places of trees that its block takes. */

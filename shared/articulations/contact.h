@@ -30,7 +30,7 @@ typedef struct {
 
 /* The bodies alone; one that is not wanted cannot move. */
 SHARED contact load_shape_of_contact(mask wanted, GLOBAL const Parameters *parameters, read_contacts contacts,
-                                     read_turning_bodies bodies, GLOBAL const float4 *solver_velocity, uint_lanes i)
+                                     read_turning_bodies bodies, GLOBAL const float4 *solver_velocity, any_index i)
 {
   contact c = load_contact(parameters, contacts, solver_velocity, bodies.inertia, i);
   c.velocity_a.inverse_mass = zero_if(!wanted, c.velocity_a.inverse_mass);
@@ -40,7 +40,7 @@ SHARED contact load_shape_of_contact(mask wanted, GLOBAL const Parameters *param
 
 /* Its two bodies as one are at rest as yet. */
 SHARED link_contact load_contact_of_sides(mask wanted, contact shape, pushed_side a, pushed_side b,
-                                          read_patches patches, read_turning_bodies bodies, uint_lanes i)
+                                          read_patches patches, read_turning_bodies bodies, any_index i)
 {
   link_contact c;
   c.wanted = wanted;
@@ -173,7 +173,7 @@ typedef struct {
 } point_arms;
 
 SHARED point_arms load_point_arms(const link_contact *c, read_patches patches, point_planes planes, uint k,
-                                  uint_lanes i)
+                                  any_index i)
 {
   vec3 arm_a = load_arm_of_a(patches.points, planes, k, i), arm_b = subtract(arm_a, xyz(c->offset));
   point_arms arms = {add(arm_a, c->shift.a), add(arm_b, c->shift.b)};

@@ -229,30 +229,34 @@ SHARED mask has_freedom(freedom_set set, uint freedom)
   return ((word >> (uint_lanes)(freedom & 31u)) & (uint_lanes)1u) != 0u;
 }
 
-/* For each freedom of a tree what has pushed it. For each that moves a link of the contact that pushes now, its row;
- * rows are numbered alike for neighbouring work-items, which then read memory of their own in order. */
+/* The freedoms of any lane, from the lowest on. */
 typedef struct {
-  uint count, rows;  /* freedoms of any lane, in whole chunks; rows of any lane */
-  freedom_set moved; /* the freedoms that have a row of their own */
-  real change[TREE_FREEDOMS];
-  uint freedom[TREE_FREEDOMS]; /* of the row */
-  spatial_motion row[TREE_FREEDOMS];
-} tree_freedoms;
+  uint low, high;
+} freedoms_left;
 
-SHARED void list_freedoms(tree_freedoms *z, freedom_set moved)
+SHARED freedoms_left freedoms_of_any(freedom_set set)
 {
-  z->moved = moved;
-  z->rows = 0u;
-  for (uint left = bits_of_any(moved.low); left != 0u; left &= left - 1u) z->freedom[z->rows++] = lowest_bit(left);
-  for (uint left = bits_of_any(moved.high); left != 0u; left &= left - 1u)
-    z->freedom[z->rows++] = 32u + lowest_bit(left);
+  freedoms_left left = {bits_of_any(set.low), bits_of_any(set.high)};
+  return left;
 }
+SHARED uint any_left(const freedoms_left *left) { return left->low | left->high; }
+SHARED uint next_freedom(freedoms_left *left)
+{
+  uint in_high = left->low == 0u ? 1u : 0u, bits = in_high ? left->high : left->low;
+  if (in_high) left->high = bits & (bits - 1u);
+  else left->low = bits & (bits - 1u);
+  return 32u * in_high + lowest_bit(bits);
+}
+
+/* For each freedom of a tree what has pushed it. */
+typedef struct {
+  uint count; /* freedoms of any lane, in whole chunks */
+  real change[TREE_FREEDOMS];
+} tree_freedoms;
 
 /* In chunks, because an H200 takes 7% longer for the contacts of trees if the loop goes one by one. */
 SHARED void begin_freedoms(const articulation *t, tree_freedoms *z)
 {
-  freedom_set none = {(uint_lanes)0u, (uint_lanes)0u};
-  list_freedoms(z, none);
   for (z->count = 0u; any_of((uint_lanes)z->count < t->freedoms); z->count += PATH_CHUNK)
     for (uint n = 0u; n < PATH_CHUNK; ++n) z->change[z->count + n] = R(0.0);
 }

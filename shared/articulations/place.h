@@ -8,10 +8,7 @@
 #define TANDEM_SHARED_ARTICULATIONS_PLACE_H
 
 #include "shared/articulations/joint_types.h"
-#include "shared/real.h"
-
-/* The number of the lowest bit of x, which has one. */
-SHARED uint lowest_bit(uint x) { return 31u - (uint)LEADING_ZEROS(x & (0u - x)); }
+#include "shared/math.h"
 
 #ifndef TANDEM_LANES
 typedef uint shape_uint; /* depends on the shape of a tree alone, as the number of a link does */

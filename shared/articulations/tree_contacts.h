@@ -10,21 +10,19 @@
  *      tree_colors      tree 0 | 0  0  0  3            is its table of paths made; how many; 0 of a mixed tree
  *
  * Contacts within one tree, and with what does not move, concern no other tree. An item a tree solves them one after
- * another in the order of their colours: a tree of 25 contacts needs one launch a pass instead of 25. They read and
- * push the tree by its table of paths (path.h), which holds as long as the tree stands still:
+ * another in the order of their colours: a tree of 25 contacts needs one launch a pass instead of 25.
  *
- *     velocity = that of the links before the pass + J^T z,    inverse inertia = J^T J,    a push f: z += J f
+ *     prepare_tree_paths      a tree      its table of paths (path.h), where it stands
+ *     project_tree_contacts   a contact   its rows, in the freedoms of the tree (contact_rows.h)
+ *     solve_tree_contacts     a tree      its contacts, one after another; z, what they push its freedoms with
  *
- * with J the rows of the seen link less those of the other one, and z what all contacts of the pass have pushed. So
- * what two links of one tree do to each other through it is exact; rows between them have smaller masses than that
- * allows (COMPLIANCE_WITHIN). A tree is mixed if a contact of it has another body that moves, or no colour of its own,
- * or if it has no table; then all of its contacts walk, by colour.
+ * What two links of one tree do to each other through it is exact. A tree is mixed if a contact of it has another body
+ * that moves, or no colour of its own, or if it has no table; then all of its contacts walk, by colour (contact.h).
  */
 #ifndef TANDEM_SHARED_ARTICULATIONS_TREE_CONTACTS_H
 #define TANDEM_SHARED_ARTICULATIONS_TREE_CONTACTS_H
 
-#include "shared/articulations/contact.h"
-#include "shared/articulations/path.h"
+#include "shared/articulations/contact_rows.h"
 
 #ifndef TANDEM_LANES /* ITEM kernels take one item at a time */
 SHARED uint color_of_contact(GLOBAL const uint *counts, uint i)
@@ -102,141 +100,321 @@ SHARED void order_tree_contacts_item(read_links links, read_joint_worlds worlds,
 }
 #endif
 
-/* --- by the table of paths ------------------------------------------------------------------------------------ */
-SHARED void make_paths_if(mask wanted, const articulation *t, GLOBAL uint *tree_colors)
+/* --- between passes ------------------------------------------------------------------------------------------- */
+/* An item is a tree. The first pass in which it stands where it does makes its table of paths. */
+SHARED void prepare_tree_paths_item(read_links links, write_link_states states, uint pass, item_index i)
 {
-  uint_lanes word = TREE_COLOR_WORDS * t->number;
-  wanted = wanted & (load_uint(tree_colors, word) == 0u);
-  if (!any_of(wanted)) return;
-  prepare_paths_if(wanted, t);
-  store_uint_if(wanted, tree_colors, word, (uint_lanes)1u);
+  uint_lanes word = TREE_COLOR_WORDS * (uint_lanes)i, listed = load_uint(states.colors, word + 3u);
+  if (!any_of(listed > 0u)) return;
+  articulation t = articulation_in_pass(links, states, i, pass);
+  mask touches = (listed > 0u) & has_links(&t);
+  settle_if_pending(touches, &t);
+  mask missing = load_uint(states.colors, word) == (uint_lanes)(uint)PATHS_ARE_MISSING;
+  if (any_of(touches & missing)) prepare_paths_if(touches & missing, &t);
+  store_uint_if(touches, states.colors, word,
+                choose(missing, (uint_lanes)(uint)PATHS_ARE_NEW, (uint_lanes)(uint)PATHS_ARE_KEPT));
 }
 
-/* Of what the freedoms that move both links would move each of them by: so much more they seem to answer than the tree
- * lets them, which keeps pushes small where it holds them to each other. With a sixteenth, some links that began deep
- * in each other came apart with twenty to a thousand times the energy. */
-#define COMPLIANCE_WITHIN R(0.5)
-
-SHARED void see_freedom(relative_body *body, spatial_motion row, real change)
+/* An item is a tree. What its contacts have borne is a force on its links in the next substep. */
+SHARED void warm_start_tree_contacts_item(GLOBAL const Parameters *parameters, read_contacts contacts,
+                                          read_patches patches, read_turning_bodies bodies, read_links links,
+                                          GLOBAL const uint *counts, write_link_states states,
+                                          write_contact_impulses contact_impulses, GLOBAL const float4 *solver_velocity,
+                                          GLOBAL float4 *warm_start_impulse, item_index i)
 {
-  body->velocity.angular = add_scaled(body->velocity.angular, row.angular, change);
-  body->velocity.linear = add_scaled(body->velocity.linear, row.linear, change);
-  add_square_of_motion(&body->inverse, row, R(1.0));
-}
-SHARED void soften_if(mask both, const relative_body *body, symmetric6 *softness, spatial_motion seen,
-                      spatial_motion other)
-{
-  if (!any_of(both)) return;
-  symmetric6 softer = *softness;
-  add_square_of_motion(&softer, seen, COMPLIANCE_WITHIN);
-  add_square_of_motion(&softer, motion_at(other, body->to_seen), COMPLIANCE_WITHIN);
-  *softness = choose_symmetric6(both, softer, *softness);
+  uint_lanes tree = i, listed = load_uint(states.colors, TREE_COLOR_WORDS * tree + 3u);
+  if (!any_of(listed > 0u)) return;
+  articulation t = articulation_at(links, states, tree);
+  listed = choose(has_links(&t), listed, (uint_lanes)0u);
+  for (uint n = 0u; any_of(n < listed); ++n) {
+    mask wanted = n < listed;
+    uint_lanes at = choose(wanted, load_uint(states.contact, TREE_COLORS * tree + n), (uint_lanes)0u);
+    link_contact c = load_tree_contact(wanted, parameters, &t, contacts, patches, bodies, links, solver_velocity, at);
+    warm_start_link_contact(parameters, &c, patches, planes_of(counts), contact_impulses, warm_start_impulse, at);
+  }
 }
 
-/* A link of the tree, or a body that none of its contacts moves. Its velocity is that before the pass. */
-SHARED pushed_side side_of_tree_contact(mask wanted, const articulation *t, read_links links, uint_lanes body,
-                                        spatial_velocity record)
-{
-  pushed_side s;
-  s.body = body;
-  s.record = record;
-  s.tree = *t;
-  s.is_link = wanted & is_link(links.of_body, body);
-  s.answers = s.is_link;
-  s.k = choose(s.is_link, load_uint(links.of_body, LINK_WORDS * body + 2u), (uint_lanes)0u);
-  s.velocity.linear = record.linear;
-  s.velocity.angular = record.angular;
-  s.velocity = choose_motion(s.is_link, load_motion(t, s.k, (uint)WORK_VELOCITY), s.velocity);
-  s.inverse = zero_symmetric6();
-  s.pushed = no_force();
-  return s;
-}
-
-SHARED link_contact load_tree_contact(mask wanted, GLOBAL const Parameters *parameters, const articulation *t,
-                                      read_contacts contacts, read_patches patches, read_turning_bodies bodies,
-                                      read_links links, GLOBAL const float4 *solver_velocity, uint_lanes i)
-{
-  contact c = load_shape_of_contact(wanted, parameters, contacts, bodies, solver_velocity, i);
-  pushed_side a = side_of_tree_contact(wanted, t, links, c.a, c.velocity_a),
-              b = side_of_tree_contact(wanted, t, links, c.b, c.velocity_b);
-  link_contact loaded = load_contact_of_sides(wanted, c, a, b, patches, bodies, i);
-  loaded.walks_within = wanted & !wanted;
-  return loaded;
-}
-
-/* The links of a contact as the freedoms of their paths move them. */
+/* --- one contact ---------------------------------------------------------------------------------------------- */
+/* Where a contact is solved, and its rows, read once; freedom: those that move the contact of any lane. */
 typedef struct {
-  path_walk seen, other;
-  symmetric6 softness;
-} seen_paths;
+  mask wanted;
+  uint_lanes at;
+  uint stride, rows;
+  freedom_set moved;
+  uint freedom[TREE_FREEDOMS];
+  projected_rows row[TREE_FREEDOMS];
+} projected_contact;
 
-SHARED seen_paths paths_of_contact(const articulation *t, const link_contact *c)
+SHARED vec4 load_term(const projected_contact *c, read_contact_freedoms f, uint term)
 {
-  mask is_b = c->body.is_b;
-  seen_paths p;
-  p.seen = walk_of_path_if(c->a.is_link | c->b.is_link, t, choose(is_b, c->b.k, c->a.k));
-  p.other = walk_of_path_if(is_b & c->a.is_link, t, c->a.k);
-  p.softness = zero_symmetric6();
+  return load_float4(f.term, c->at + c->stride * term);
+}
+
+/* What does not move the contact is not used. */
+SHARED projected_rows load_projection(const projected_contact *c, read_contact_freedoms f, uint n)
+{
+  uint_lanes row = c->at + c->stride * (2u * c->freedom[n]);
+  projected_rows p = {load_float4(f.row, row), load_float4(f.row, row + c->stride)};
   return p;
 }
 
-/* What a freedom does to the two links. */
+/* Rows are read by some at once, so that a device waits for their memory once. */
+SHARED void load_projections(projected_contact *c, read_contact_freedoms f)
+{
+  for (uint first = 0u; first < c->rows; first += PATH_CHUNK) {
+    projected_rows p[PATH_CHUNK];
+    for (uint n = 0u; n < PATH_CHUNK; ++n)
+      if (first + n < c->rows) p[n] = load_projection(c, f, first + n);
+    for (uint n = 0u; n < PATH_CHUNK; ++n)
+      if (first + n < c->rows) c->row[first + n] = p[n];
+  }
+}
+
+SHARED void load_projected_contact(mask wanted, read_contact_freedoms f, uint stride, uint_lanes at,
+                                   projected_contact *c)
+{
+  c->wanted = wanted;
+  c->at = at;
+  c->stride = stride;
+  c->rows = 0u;
+  c->moved.low = choose(wanted, load_uint(f.freedom, at), (uint_lanes)0u);
+  c->moved.high = choose(wanted, load_uint(f.freedom, at + stride), (uint_lanes)0u);
+  for (freedoms_left left = freedoms_of_any(c->moved); any_left(&left);) c->freedom[c->rows++] = next_freedom(&left);
+  load_projections(c, f);
+}
+
+SHARED vec4 no_speeds(void) { return make_vec4(R(0.0), R(0.0), R(0.0), R(0.0)); }
+SHARED vec4 add_scaled4(vec4 sum, vec4 v, real factor)
+{
+  return make_vec4(sum.x + factor * v.x, sum.y + factor * v.y, sum.z + factor * v.z, sum.w + factor * v.w);
+}
+SHARED real dot4(vec4 a, vec4 b) { return (a.x * b.x + a.y * b.y) + (a.z * b.z + a.w * b.w); }
+
+/* How what has pushed the freedoms moves both directions of friction and the twist; and the normals. */
+SHARED vec4 others_moved(const projected_contact *c, const tree_freedoms *z)
+{
+  vec4 speeds = no_speeds();
+  for (uint n = 0u; n < c->rows; ++n) {
+    vec4 moved = add_scaled4(speeds, c->row[n].others, z->change[c->freedom[n]]);
+    speeds = choose4(has_freedom(c->moved, c->freedom[n]), moved, speeds);
+  }
+  return speeds;
+}
+SHARED vec4 normals_moved(const projected_contact *c, const tree_freedoms *z)
+{
+  vec4 speeds = no_speeds();
+  for (uint n = 0u; n < c->rows; ++n) {
+    vec4 moved = add_scaled4(speeds, c->row[n].normals, z->change[c->freedom[n]]);
+    speeds = choose4(has_freedom(c->moved, c->freedom[n]), moved, speeds);
+  }
+  return speeds;
+}
+
+SHARED void push_others_if(mask pushes, const projected_contact *c, tree_freedoms *z, vec4 impulses)
+{
+  if (!any_of(pushes)) return;
+  for (uint n = 0u; n < c->rows; ++n) {
+    uint freedom = c->freedom[n];
+    real change = z->change[freedom] + dot4(c->row[n].others, impulses);
+    z->change[freedom] = choose(pushes & has_freedom(c->moved, freedom), change, z->change[freedom]);
+  }
+}
+SHARED void push_normals_if(mask pushes, const projected_contact *c, tree_freedoms *z, vec4 impulses)
+{
+  if (!any_of(pushes)) return;
+  for (uint n = 0u; n < c->rows; ++n) {
+    uint freedom = c->freedom[n];
+    real change = z->change[freedom] + dot4(c->row[n].normals, impulses);
+    z->change[freedom] = choose(pushes & has_freedom(c->moved, freedom), change, z->change[freedom]);
+  }
+}
+
+/* --- friction ------------------------------------------------------------------------------------------------- */
+/* impulse: along the tangents and about the normal; the radius of the patch. speeds: first, second, twist. */
+SHARED vec4 friction_after(vec4 impulse, vec4 speeds, vec4 terms, real limit)
+{
+  real twist_limit = limit * impulse.w;
+  real twist = clamped(impulse.z - terms.z * speeds.z, -twist_limit, twist_limit), turned = twist - impulse.z;
+  real x = impulse.x - terms.w * (speeds.x + terms.x * turned), y = impulse.y - terms.w * (speeds.y + terms.y * turned);
+  real squared = x * x + y * y;
+  mask slips = squared > limit * limit;
+  real shrink = choose(slips, limit / square_root(choose(slips, squared, (real)R(1.0))), (real)R(1.0));
+  return make_vec4(x * shrink, y * shrink, twist, impulse.w);
+}
+
+SHARED vec4 change_between4(vec4 before, vec4 after)
+{
+  return make_vec4(after.x - before.x, after.y - before.y, after.z - before.z, after.w - before.w);
+}
+SHARED mask is_nonzero4(vec4 v) { return (v.x != R(0.0)) | (v.y != R(0.0)) | (v.z != R(0.0)) | (v.w != R(0.0)); }
+
+SHARED vec4 solve_tree_friction_if(mask rough, const projected_contact *c, read_contact_freedoms f, tree_freedoms *z,
+                                   vec4 friction, real limit, mask *pushed)
+{
+  if (!any_of(rough)) return friction;
+  vec4 speeds = add4(load_term(c, f, CONTACT_TERM_SPEEDS), others_moved(c, z));
+  vec4 solved = friction_after(friction, speeds, load_term(c, f, CONTACT_TERM_FRICTION), limit);
+  vec4 change = change_between4(friction, solved);
+  mask pushes = rough & is_nonzero4(change);
+  push_others_if(pushes, c, z, change);
+  *pushed = *pushed | pushes;
+  return choose4(rough, solved, friction);
+}
+
+/* --- normals -------------------------------------------------------------------------------------------------- */
+/* last_coupled: of 13 and 23; then as masses see them. */
 typedef struct {
-  mask moves_seen, moves_other;
-  spatial_motion seen, other;
-} freedom_motions;
+  vec4 speed, impulse, mass, separation, squares, coupled, soft_coupled, last_coupled;
+} tree_normals;
 
-SHARED freedom_motions next_motions(const articulation *t, seen_paths *p, uint freedom)
+/* A single point is coupled to no other one. */
+SHARED tree_normals load_tree_normals(const projected_contact *c, read_contact_freedoms f, const tree_freedoms *z,
+                                      vec4 impulse)
 {
-  freedom_motions m;
-  m.moves_seen = has_freedom(p->seen.freedoms, freedom);
-  m.moves_other = has_freedom(p->other.freedoms, freedom);
-  m.seen = next_motion_if(m.moves_seen, t, &p->seen);
-  m.other = next_motion_if(m.moves_other, t, &p->other);
-  return m;
+  tree_normals s;
+  s.speed = add4(load_term(c, f, CONTACT_TERM_NORMAL_SPEEDS), normals_moved(c, z));
+  s.impulse = impulse;
+  s.mass = load_term(c, f, CONTACT_TERM_MASSES);
+  s.separation = load_term(c, f, CONTACT_TERM_SEPARATIONS);
+  s.squares = load_term(c, f, CONTACT_TERM_SQUARES);
+  s.coupled = s.soft_coupled = s.last_coupled = no_speeds();
+  if (!any_of((s.mass.y > R(0.0)) | (s.mass.z > R(0.0)) | (s.mass.w > R(0.0)))) return s;
+  s.coupled = load_term(c, f, CONTACT_TERM_COUPLED);
+  s.soft_coupled = load_term(c, f, CONTACT_TERM_SOFT_COUPLED);
+  s.last_coupled = load_term(c, f, CONTACT_TERM_LAST_COUPLED);
+  return s;
 }
 
-/* A row of another lane's freedom does nothing, to the bit, so the bits of a tree depend on no other one. */
-SHARED void see_motions(link_contact *c, tree_freedoms *z, seen_paths *p, const freedom_motions *m, uint n)
+/* How fast impulses along the normals move their points. */
+SHARED vec4 speeds_of_impulses(const tree_normals *s, vec4 p)
 {
-  mask moves = m->moves_seen | m->moves_other;
-  z->row[n] = choose_motion(moves, motion_seen(&c->body, m->seen, m->other), no_motion());
-  see_freedom(&c->body, z->row[n], zero_if(!moves, z->change[z->freedom[n]]));
-  soften_if(m->moves_seen & m->moves_other, &c->body, &p->softness, m->seen, m->other);
+  vec4 k = s->coupled;
+  real yw = s->last_coupled.x, zw = s->last_coupled.y;
+  return make_vec4(s->squares.x * p.x + (k.x * p.y + (k.y * p.z + k.z * p.w)),
+                   s->squares.y * p.y + (k.x * p.x + (k.w * p.z + yw * p.w)),
+                   s->squares.z * p.z + (k.y * p.x + (k.w * p.y + zw * p.w)),
+                   s->squares.w * p.w + (k.z * p.x + (yw * p.y + zw * p.z)));
 }
 
-/* The contact after all that the pass has pushed with, and its rows. Motions are read by some at once, so that a device
- * waits for their memory once. */
-SHARED void see_by_paths(const articulation *t, link_contact *c, tree_freedoms *z)
+/* Twice the energy of impulses along the normals, as masses see it. answers: of each point alone. */
+SHARED real energy_of_impulses(const tree_normals *s, vec4 answers, vec4 p)
 {
-  see_velocities(c);
-  c->body.velocity = add_motions(c->body.velocity, no_motion()); /* -0 becomes 0, to which adding 0 does nothing */
-  seen_paths p = paths_of_contact(t, c);
-  list_freedoms(z, freedoms_of_either(&p.seen, &p.other));
-  for (uint first = 0u; first < z->rows; first += PATH_CHUNK) {
-    freedom_motions motions[PATH_CHUNK];
-    for (uint n = 0u; n < PATH_CHUNK; ++n)
-      if (first + n < z->rows) motions[n] = next_motions(t, &p, z->freedom[first + n]);
-    for (uint n = 0u; n < PATH_CHUNK; ++n)
-      if (first + n < z->rows) see_motions(c, z, &p, &motions[n], first + n);
+  vec4 k = s->soft_coupled;
+  real alone = (answers.x * p.x) * p.x + (answers.y * p.y) * p.y + (answers.z * p.z) * p.z + (answers.w * p.w) * p.w;
+  real coupled = k.x * (p.x * p.y) + k.y * (p.x * p.z) + k.z * (p.x * p.w) + k.w * (p.y * p.z) +
+                 s->last_coupled.z * (p.y * p.w) + s->last_coupled.w * (p.z * p.w);
+  return alone + R(2.0) * coupled;
+}
+
+SHARED real change_of_normal(real mass, real target, real impulse)
+{
+  return choose(mass > R(0.0), maximum(target, R(0.0)) - impulse, (real)R(0.0));
+}
+SHARED real pulls_least(vec4 v) { return minimum(minimum(v.x, v.y), minimum(v.z, v.w)); }
+
+/* block_solve_normals of solve/contact.h: all points move towards their targets along one direction. */
+SHARED void block_solve_tree_normals(tree_normals *s, vec4 target)
+{
+  vec4 m = s->mass, before = s->impulse;
+  vec4 change = make_vec4(change_of_normal(m.x, target.x, before.x), change_of_normal(m.y, target.y, before.y),
+                          change_of_normal(m.z, target.z, before.z), change_of_normal(m.w, target.w, before.w));
+  vec4 answers = make_vec4(inverse_or_zero(m.x), inverse_or_zero(m.y), inverse_or_zero(m.z), inverse_or_zero(m.w));
+  vec4 wanted = change_between4(before, target);
+  real own = (answers.x * change.x) * wanted.x + (answers.y * change.y) * wanted.y +
+             ((answers.z * change.z) * wanted.z + (answers.w * change.w) * wanted.w);
+  real whole = energy_of_impulses(s, answers, change);
+  real share = minimum(own / choose(whole > R(0.0), whole, (real)R(1.0)), R(2.0));
+  mask pulls = pulls_least(add_scaled4(before, change, share)) < R(0.0);
+  share = choose(pulls, minimum(share, R(1.0)), share);
+  s->impulse = add_scaled4(before, change, share);
+  s->speed = add_scaled4(s->speed, speeds_of_impulses(s, change), share);
+}
+
+SHARED void solve_tree_normals(GLOBAL const Parameters *parameters, tree_normals *s, softness soft, real slop,
+                               uint biased)
+{
+  real target[4];
+  for (uint k = 0; k < 4u; ++k)
+    target[k] = normal_impulse(parameters, soft, slop, component(s->separation, k), component(s->speed, k),
+                               component(s->mass, k), component(s->impulse, k), biased);
+  block_solve_tree_normals(s, make_vec4(target[0], target[1], target[2], target[3]));
+}
+
+/* Contacts of an impact have more rounds. */
+SHARED void solve_rounds_of_tree_normals(GLOBAL const Parameters *parameters, tree_normals *s, softness soft, real slop,
+                                         mask at_impact, uint biased)
+{
+  solve_tree_normals(parameters, s, soft, slop, biased);
+  if (!any_of(at_impact)) return;
+  vec4 once = s->impulse;
+  for (uint round = 0; round < IMPACT_ROUNDS; ++round) solve_tree_normals(parameters, s, soft, slop, biased);
+  s->impulse = choose4(at_impact, s->impulse, once);
+}
+
+/* Towards the target velocities of restitution, as apply_restitution_item of solve/contact.h. */
+SHARED void bounce_tree_normals(tree_normals *s, vec4 target_velocity, vec4 highest)
+{
+  real wanted[4];
+  for (uint k = 0; k < 4u; ++k) {
+    real target = component(target_velocity, k), impulse = component(s->impulse, k);
+    mask applies = (target >= R(0.0)) & (component(highest, k) > R(0.0));
+    wanted[k] = choose(applies, impulse - component(s->mass, k) * (component(s->speed, k) - target), impulse);
   }
-  c->body.response = add_symmetric6(c->body.inverse, p.softness);
+  block_solve_tree_normals(s, make_vec4(wanted[0], wanted[1], wanted[2], wanted[3]));
 }
 
-SHARED void push_by_paths_if(mask wanted, tree_freedoms *z, spatial_force f)
+/* --- passes --------------------------------------------------------------------------------------------------- */
+SHARED void push_by_normals_if(mask wanted, const projected_contact *c, tree_freedoms *z, vec4 before, vec4 after,
+                               mask *pushed)
 {
-  for (uint n = 0u; n < z->rows; ++n) {
-    uint freedom = z->freedom[n];
-    real change = z->change[freedom] + power_of(f, z->row[n]);
-    z->change[freedom] = choose(wanted & has_freedom(z->moved, freedom), change, z->change[freedom]);
-  }
+  vec4 change = change_between4(before, after);
+  mask pushes = wanted & is_nonzero4(change);
+  push_normals_if(pushes, c, z, change);
+  *pushed = *pushed | pushes;
 }
 
-/* Those of a pass that is not the warm start move the tree. */
-SHARED void begin_moving_if(mask touches, const articulation *t, GLOBAL uint *tree_colors)
+SHARED softness softness_of_tree_contact(GLOBAL const Parameters *parameters, mask against_fixed)
 {
-  settle_if_pending(touches, t);
-  make_paths_if(touches, t, tree_colors);
+  softness s = {choose(against_fixed, (real)parameters->static_bias_rate, (real)parameters->bias_rate),
+                choose(against_fixed, (real)parameters->static_mass_scale, (real)parameters->mass_scale),
+                choose(against_fixed, (real)parameters->static_impulse_scale, (real)parameters->impulse_scale)};
+  return s;
+}
+
+SHARED void solve_projected_contact(GLOBAL const Parameters *parameters, const projected_contact *c,
+                                    read_contacts contacts, read_contact_freedoms f,
+                                    GLOBAL const memory_real *constraint_slop, write_contact_impulses impulses,
+                                    tree_freedoms *z, uint biased, mask *pushed)
+{
+  real packed = load_float4(contacts.normal, c->at).w, coefficient = friction_of(packed);
+  vec4 before = load_float4(impulses.normal, c->at), friction = load_friction(parameters, impulses.friction, c->at);
+  mask rough = c->wanted & (coefficient > R(0.0));
+  if (!HAS_FEATURE(parameters, FRICTION)) rough = rough & !rough;
+  real limit = coefficient * ((before.x + before.y) + (before.z + before.w));
+  friction = solve_tree_friction_if(rough, c, f, z, friction, limit, pushed);
+  if (HAS_FEATURE(parameters, FRICTION)) store_float4_if(rough, impulses.friction, c->at, friction);
+  tree_normals s = load_tree_normals(c, f, z, before);
+  softness soft = softness_of_tree_contact(parameters, load_term(c, f, CONTACT_TERM_SPEEDS).w > R(0.0));
+  solve_rounds_of_tree_normals(parameters, &s, soft, load_real(constraint_slop, c->at), packed < R(0.0), biased);
+  store_float4_if(c->wanted, impulses.normal, c->at, s.impulse);
+  keep_highest_impulses_if(c->wanted, parameters, impulses.restitution, c->stride, s.impulse, c->at);
+  push_by_normals_if(c->wanted, c, z, before, s.impulse, pushed);
+}
+
+/* Contacts of which no point bounces stay as they are. */
+SHARED void bounce_projected_contact(const projected_contact *c, read_contact_freedoms f,
+                                     write_contact_impulses impulses, tree_freedoms *z, mask *pushed)
+{
+  vec4 target_velocity = load_float4(impulses.restitution, c->at),
+       highest = load_float4(impulses.restitution, c->at + c->stride);
+  mask bounces = c->wanted & ((target_velocity.x >= R(0.0)) | (target_velocity.y >= R(0.0)) |
+                              (target_velocity.z >= R(0.0)) | (target_velocity.w >= R(0.0)));
+  if (!any_of(bounces)) return;
+  vec4 before = load_float4(impulses.normal, c->at);
+  tree_normals s = load_tree_normals(c, f, z, before);
+  for (uint round = 0; round < RESTITUTION_ROUNDS; ++round) bounce_tree_normals(&s, target_velocity, highest);
+  store_float4_if(bounces, impulses.normal, c->at, s.impulse);
+  push_by_normals_if(bounces, c, z, before, s.impulse, pushed);
 }
 
 SHARED void end_moving_if(mask wanted, const articulation *t, const tree_freedoms *z, mask pushed)
@@ -246,10 +424,10 @@ SHARED void end_moving_if(mask wanted, const articulation *t, const tree_freedom
 }
 
 /* An item is a tree. */
-SHARED void solve_tree_contacts_item(GLOBAL const Parameters *parameters, read_contacts contacts, read_patches patches,
-                                     read_turning_bodies bodies, read_links links, GLOBAL const uint *counts,
-                                     write_link_states states, write_contact_impulses contact_impulses,
-                                     GLOBAL float4 *solver_velocity, GLOBAL float4 *warm_start_impulse, uint pass,
+SHARED void solve_tree_contacts_item(GLOBAL const Parameters *parameters, read_contacts contacts,
+                                     GLOBAL const memory_real *constraint_slop, read_links links,
+                                     GLOBAL const uint *counts, read_contact_freedoms freedoms,
+                                     write_link_states states, write_contact_impulses contact_impulses, uint pass,
                                      item_index i)
 {
   uint_lanes tree = i, listed = load_uint(states.colors, TREE_COLOR_WORDS * tree + 3u);
@@ -257,23 +435,20 @@ SHARED void solve_tree_contacts_item(GLOBAL const Parameters *parameters, read_c
   articulation t = articulation_in_pass(links, states, tree, pass);
   listed = choose(has_links(&t), listed, (uint_lanes)0u);
   mask touches = listed > 0u, pushed = touches & !touches;
-  uint moves = pass != (uint)PASS_WARM_STARTING ? 1u : 0u;
+  uint stride = planes_of(counts).stride, biased = kind_of_pass(pass) == (uint)PASS_BIASED ? 1u : 0u;
   tree_freedoms z;
   begin_freedoms(&t, &z);
-  if (moves) begin_moving_if(touches, &t, states.colors);
-  articulation own = t; /* known to no function that is called */
   for (uint n = 0u; any_of(n < listed); ++n) {
     mask wanted = n < listed;
     uint_lanes at = choose(wanted, load_uint(states.contact, TREE_COLORS * tree + n), (uint_lanes)0u);
-    link_contact c = load_tree_contact(wanted, parameters, &own, contacts, patches, bodies, links, solver_velocity, at);
-    if (moves) see_by_paths(&own, &c, &z);
-    run_pass_of_link_contact(parameters, &c, patches, planes_of(counts), contact_impulses, warm_start_impulse,
-                             kind_of_pass(pass), at);
-    mask pushes = wanted & is_push(c.body.pushed);
-    if (any_of(pushes)) push_by_paths_if(pushes, &z, c.body.pushed);
-    pushed = pushed | pushes;
+    projected_contact c;
+    load_projected_contact(wanted, freedoms, stride, at, &c);
+    if (pass == (uint)PASS_BOUNCING) bounce_projected_contact(&c, freedoms, contact_impulses, &z, &pushed);
+    else
+      solve_projected_contact(parameters, &c, contacts, freedoms, constraint_slop, contact_impulses, &z, biased,
+                              &pushed);
   }
-  if (moves) end_moving_if(touches, &t, &z, pushed);
+  end_moving_if(touches, &t, &z, pushed);
 }
 
 #endif

@@ -76,7 +76,6 @@ SHARED void nncg_beta_item(GLOBAL const Parameters *parameters, GLOBAL const mem
 }
 
 SHARED vec4 scale4(vec4 v, real s) { return make_vec4(v.x * s, v.y * s, v.z * s, v.w * s); }
-SHARED vec4 add4(vec4 a, vec4 b) { return make_vec4(a.x + b.x, a.y + b.y, a.z + b.z, a.w + b.w); }
 
 SHARED vec4 change_between(vec4 before, vec4 now)
 {

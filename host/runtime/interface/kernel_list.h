@@ -90,6 +90,7 @@ enum class Capacity : uint8_t {
   SLEEPERS,
   MOVED_ROWS,
   PAIRS,
+  CONTACT_FREEDOMS,
   PAIRS_PLUS_ONE,
   EVENTS,
   CELLS,
