@@ -130,12 +130,13 @@ SHARED real twist_of_contact(link_contact *c, real old, real limit)
   return twist;
 }
 
-/* As friction_mass in setup/contact.h, where the tree stands now. */
-SHARED real sliding_mass(const relative_body *body, spatial_force first, spatial_force second)
+/* As friction_mass in setup/contact.h, where the tree stands now: of the responses of both directions, and of the two
+ * together. */
+SHARED real mass_of_sliding(vec3 response)
 {
-  real one = response_seen(body, first, first), other = response_seen(body, second, second);
-  real mixed = response_seen(body, first, second), difference = one - other;
-  return inverse_or_zero(R(0.5) * (one + other + square_root(difference * difference + R(4.0) * mixed * mixed)));
+  real difference = response.x - response.y;
+  real root = square_root(difference * difference + R(4.0) * response.z * response.z);
+  return inverse_or_zero(R(0.5) * (response.x + response.y + root));
 }
 
 SHARED spatial_force row_at_center(const link_contact *c, vec3 direction)
@@ -150,12 +151,11 @@ SHARED vec4 solve_link_friction(link_contact *c, vec4 impulse, real normal_impul
   real twist = twist_of_contact(c, impulse.z, limit * impulse.w);
   tangents t = tangents_of(c->shape.normal);
   spatial_force first = row_at_center(c, t.first), second = row_at_center(c, t.second);
-  real mass = sliding_mass(&c->body, first, second);
+  real mass = mass_of_sliding(make_vec3(response_seen(&c->body, first, first), response_seen(&c->body, second, second),
+                                        response_seen(&c->body, first, second)));
   real x = impulse.x - mass * power_of(first, c->body.velocity),
        y = impulse.y - mass * power_of(second, c->body.velocity);
-  real squared = x * x + y * y;
-  mask slips = squared > limit * limit;
-  real shrink = choose(slips, limit / square_root(choose(slips, squared, (real)R(1.0))), (real)R(1.0));
+  real shrink = share_within_cone(x, y, limit);
   x = x * shrink;
   y = y * shrink;
   push_seen(&c->body, add_forces(scaled_force(first, x - impulse.x), scaled_force(second, y - impulse.y)));
@@ -172,8 +172,7 @@ typedef struct {
   vec3 a, b;
 } point_arms;
 
-SHARED point_arms load_point_arms(const link_contact *c, read_patches patches, point_planes planes, uint k,
-                                  any_index i)
+SHARED point_arms load_point_arms(const link_contact *c, read_patches patches, point_planes planes, uint k, any_index i)
 {
   vec3 arm_a = load_arm_of_a(patches.points, planes, k, i), arm_b = subtract(arm_a, xyz(c->offset));
   point_arms arms = {add(arm_a, c->shift.a), add(arm_b, c->shift.b)};

@@ -109,14 +109,6 @@ SHARED contact_response sum_of_responses(const contact_response *a, const contac
   return r;
 }
 
-/* As friction_mass in setup/contact.h, where the tree stands now. sliding: of contact_response. */
-SHARED real mass_of_sliding(vec3 sliding)
-{
-  real difference = sliding.x - sliding.y;
-  real root = square_root(difference * difference + R(4.0) * sliding.z * sliding.z);
-  return inverse_or_zero(R(0.5) * (sliding.x + sliding.y + root));
-}
-
 /* --- links and freedoms --------------------------------------------------------------------------------------- */
 /* A link of the tree, or a body that none of its contacts moves. Its velocity is that before the pass. */
 SHARED pushed_side side_of_tree_contact(mask wanted, const articulation *t, read_links links, uint_lanes body,
@@ -144,9 +136,7 @@ SHARED link_contact load_tree_contact(mask wanted, GLOBAL const Parameters *para
   contact c = load_shape_of_contact(wanted, parameters, contacts, bodies, solver_velocity, i);
   pushed_side a = side_of_tree_contact(wanted, t, links, c.a, c.velocity_a),
               b = side_of_tree_contact(wanted, t, links, c.b, c.velocity_b);
-  link_contact loaded = load_contact_of_sides(wanted, c, a, b, patches, bodies, i);
-  loaded.walks_within = wanted & !wanted;
-  return loaded;
+  return load_contact_of_sides(wanted, c, a, b, patches, bodies, i);
 }
 
 /* The links of a contact as the freedoms of their paths move them. */

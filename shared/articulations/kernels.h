@@ -8,6 +8,7 @@
 #include "shared/articulations/couplings.h"
 #include "shared/articulations/joint.h"
 #include "shared/articulations/joint_forces.h"
+#include "shared/articulations/solve_tree_contacts.h"
 #include "shared/articulations/step.h"
 #include "shared/articulations/tree_contacts.h"
 #ifndef TANDEM_LANES /* ITEM kernels take one item at a time */

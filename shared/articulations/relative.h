@@ -77,12 +77,4 @@ SHARED relative_body choose_relative(mask m, relative_body a, relative_body b)
   return b;
 }
 
-/* a + (x x^T) factor, of a motion x. */
-SHARED void add_square_of_motion(symmetric6 *w, spatial_motion x, real factor)
-{
-  w->first = add_products(w->first, x.linear, x.linear, factor);
-  w->second = add_products(w->second, x.angular, x.angular, factor);
-  w->coupling = add_product(w->coupling, x.linear, x.angular, factor);
-}
-
 #endif

@@ -229,6 +229,14 @@ SHARED real friction_mass_now(contact c, mask stale, real stored, vec3 slide, ve
   return choose(diverges, squared / choose(diverges, mobility, (real)R(1.0)), stored);
 }
 
+/* The share of an impulse of sliding friction that does not leave the cone. */
+SHARED real share_within_cone(real first, real second, real limit)
+{
+  real squared = first * first + second * second;
+  mask slips = squared > limit * limit;
+  return choose(slips, limit / square_root(choose(slips, squared, (real)R(1.0))), (real)R(1.0));
+}
+
 /* Solves the twist about the normal and the cone of sliding friction at the centre of the manifold. stale: whether the
  * stored masses are stale. */
 SHARED solved solve_friction(contact c, mask stale, arm_shift shift, vec4 center_a, vec4 center_b, vec4 impulse,
@@ -247,9 +255,7 @@ SHARED solved solve_friction(contact c, mask stale, arm_shift shift, vec4 center
   vec3 along = add(scale(t.first, slide_first), scale(t.second, slide_second));
   real mass = friction_mass_now(c, stale, center_a.w, along, arm_a, arm_b);
   real first = impulse.x - mass * slide_first, second = impulse.y - mass * slide_second;
-  real squared = first * first + second * second;
-  mask slips = squared > limit * limit;
-  real shrink = choose(slips, limit / square_root(choose(slips, squared, (real)R(1.0))), (real)R(1.0));
+  real shrink = share_within_cone(first, second, limit);
   first = first * shrink;
   second = second * shrink;
   vec3 change = add(scale(t.first, first - impulse.x), scale(t.second, second - impulse.y));
@@ -262,13 +268,16 @@ typedef struct {
   real rate, mass_scale, impulse_scale;
 } softness;
 
-SHARED softness softness_of(GLOBAL const Parameters *parameters, contact c)
+SHARED softness softness_against(GLOBAL const Parameters *parameters, mask against_fixed)
 {
-  mask against_fixed = (c.velocity_a.inverse_mass == R(0.0)) | (c.velocity_b.inverse_mass == R(0.0));
   softness s = {choose(against_fixed, (real)parameters->static_bias_rate, (real)parameters->bias_rate),
                 choose(against_fixed, (real)parameters->static_mass_scale, (real)parameters->mass_scale),
                 choose(against_fixed, (real)parameters->static_impulse_scale, (real)parameters->impulse_scale)};
   return s;
+}
+SHARED softness softness_of(GLOBAL const Parameters *parameters, contact c)
+{
+  return softness_against(parameters, (c.velocity_a.inverse_mass == R(0.0)) | (c.velocity_b.inverse_mass == R(0.0)));
 }
 
 /* Returns the new accumulated impulse of one normal row. Ahead of contact the bodies may close the gap and no more. In
