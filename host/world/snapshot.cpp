@@ -49,8 +49,8 @@ template <Is<SleepingIsland> T, class Visit> auto visit_fields(T &record, const 
 
 template <Is<SubstepChoice> T, class Visit> auto visit_fields(T &record, const Visit &visit)
 {
-  auto &[automatic, starts, now, of_cache, calm_steps, layers_at_start] = record;
-  return visit(automatic, starts, now, of_cache, calm_steps, layers_at_start);
+  auto &[automatic, starts, now, of_cache, calm_steps, layers_at_start, wishes_left] = record;
+  return visit(automatic, starts, now, of_cache, calm_steps, layers_at_start, wishes_left);
 }
 
 template <Is<SleepEvent> T, class Visit> auto visit_fields(T &record, const Visit &visit)
