@@ -66,7 +66,8 @@ typedef struct {
   BUFFER(body_gravity, float4, gravity)                                                                                \
   BUFFER(body_position, float4, position)                                                                              \
   BUFFER(solver_velocity, float4, velocity)                                                                            \
-  BUFFER(solver_inertia, float4, inertia)
+  BUFFER(solver_inertia, float4, inertia)                                                                              \
+  BUFFER(body_class, uint, substep_class)
 
 /* The bodies of the solver, for kernels that only read velocities. */
 #define GROUP_solver_bodies(BUFFER)                                                                                    \
@@ -83,11 +84,13 @@ typedef struct {
   BUFFER(solver_orientation, float4, orientation)                                                                      \
   BUFFER(sort_value, uint, order)
 
-/* The bodies of joints: with orientations, because arms and frames turn with them. */
+/* The bodies of joints: with orientations, because arms and frames turn with them, and with their classes, because not
+ * every pass moves all (substep_classes.h). */
 #define GROUP_turning_bodies(BUFFER)                                                                                   \
   BUFFER(solver_inertia, float4, inertia)                                                                              \
   BUFFER(solver_delta_pose, float4, delta)                                                                             \
-  BUFFER(solver_orientation, float4, orientation)
+  BUFFER(solver_orientation, float4, orientation)                                                                      \
+  BUFFER(body_class, uint, substep_class)
 
 /* The nodes of the graph of contacts: batching/nodes.h. */
 #define GROUP_nodes(BUFFER)                                                                                            \
@@ -389,10 +392,18 @@ typedef struct {
   BUFFER(cached_friction_impulse, float4, friction_impulse)                                                            \
   BUFFER(cached_standing, uint, standing)
 
-/* What contacts say of the bodies that they bear: that they do not fall, and what stands on them. */
+/* What contacts say of the bodies that they bear: that they do not fall, what stands on them, and whether they wish for
+ * many substeps. */
 #define GROUP_borne_bodies(BUFFER)                                                                                     \
   BUFFER(body_falls, uint, falls)                                                                                      \
-  BUFFER(previous_cached_standing, uint, standing)
+  BUFFER(previous_cached_standing, uint, standing)                                                                     \
+  BUFFER(body_wish, uint, wish)
+
+/* The bodies of setup/standing.h, with the number of contacts that each stands on. */
+#define GROUP_stacked_bodies(BUFFER)                                                                                   \
+  BUFFER(body_shape, float4, shape)                                                                                    \
+  BUFFER(body_supports, uint, supports)                                                                                \
+  BUFFER(solver_velocity, float4, velocity)
 
 typedef struct {
   GROUP_nncg_rows(WRITE_MEMBER)
@@ -442,6 +453,9 @@ typedef struct {
 typedef struct {
   GROUP_cached_loads(READ_MEMBER)
 } read_cached_loads;
+typedef struct {
+  GROUP_stacked_bodies(READ_MEMBER)
+} read_stacked_bodies;
 typedef struct {
   GROUP_borne_bodies(WRITE_MEMBER)
 } write_borne_bodies;

@@ -59,4 +59,11 @@ enum { WALK_BY_SKIPPING = 0, WALK_BY_STACK = 1, WALK_BY_HISTORY = 2 };
 /* The structure in which a query searches for bodies (queries/body_walk.h). */
 enum { QUERY_HIERARCHY = 0, QUERY_GRID = 1, QUERY_EVERY_BODY = 2 };
 
+/* Classes of bodies (substep_classes.h), and in Parameters::substep_class those that take part: every body, or those of
+ * one class. NO_CLASS: of bodies that are not dynamic. */
+#define EVERY_CLASS 0u
+#define NO_CLASS 0u
+#define FEW_SUBSTEPS 1u
+#define MANY_SUBSTEPS 2u
+
 #endif

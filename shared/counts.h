@@ -15,8 +15,8 @@
 /* Contacts of links (articulations/contact.h) are parted from others within each colour. Those of the last colour are
  * solved one after another, with those past it. */
 #define LINK_COLORS (COLOR_LIMIT - 1u)
-#define COLOR_NONE 254u            /* a touching pair without a colour yet */
-#define COLOR_INACTIVE 255u        /* a pair that does not touch, or one with a trigger */
+#define COLOR_NONE 254u     /* a touching pair without a colour yet */
+#define COLOR_INACTIVE 255u /* a pair that does not touch, or one with a trigger */
 
 #define COLOR_ENTRIES ((int)COLOR_LIMIT + 2) /* the start of each colour, start and end of the overflow constraints */
 #if COLOR_LIMIT > 63u
@@ -61,13 +61,13 @@ enum {
   COUNT_COMMIT_BODIES_PLUS_ONE,
   COUNT_COMMIT_PAIRS,
   COUNT_COMMIT_CONSTRAINTS,
-  COUNT_JOINTS,        /* set by the host */
-  COUNT_COMMIT_JOINTS, /* these, as the other ranges of the commit */
-  COUNT_BROKEN_JOINTS, /* by the loads of the step: joints/loads.h */
+  COUNT_JOINTS,           /* set by the host */
+  COUNT_COMMIT_JOINTS,    /* these, as the other ranges of the commit */
+  COUNT_BROKEN_JOINTS,    /* by the loads of the step: joints/loads.h */
   COUNT_COUPLINGS,        /* set by the host */
   COUNT_ARTICULATIONS,    /* set by the host */
   COUNT_COMMIT_COUPLINGS, /* these, as the other ranges of the commit */
-  COUNT_GRID_X, /* cells of the uniform grid along each axis */
+  COUNT_GRID_X,           /* cells of the uniform grid along each axis */
   COUNT_GRID_Y,
   COUNT_GRID_Z,
   COUNT_CELLS,
@@ -114,7 +114,10 @@ enum {
   COUNT_ISLAND_ROUNDS,        /* rounds that changed a label of an island */
   COUNT_ISLANDS_OPEN,         /* 1 if more rounds might change one */
   COUNT_FALLING_ASLEEP,       /* bodies that fall asleep at the end of the step */
-  COUNT_LOAD_RATE,     /* bits of a float, 1/s^2: square of the rate of substeps that loads need (setup/standing.h) */
+  COUNT_LOAD_RATE,       /* bits of a float, 1/s^2: square of the rate of substeps that loads need (setup/standing.h) */
+  COUNT_SUBSTEP_CLASSES, /* FEW_SUBSTEPS | MANY_SUBSTEPS: those that bodies which may move have (substep_classes.h) */
+  COUNT_MANY_BODIES,     /* dynamic bodies that take many substeps */
+  COUNT_LATE_WISHES,     /* 1 if a body wants many that took few */
   COUNT_BRACED_LAYERS, /* of the highest stack that needs substeps because its bodies rest on several, in the first step
                           of a world; else 0 */
   COUNT_EVENTS,        /* of the step; 0 unless it was committed */
@@ -135,7 +138,10 @@ enum {
   COUPLING_COLOR_START = LINK_JOINT_COLOR_START + COLOR_ENTRIES,
   /* Of each colour, the first contact of a link: articulations/colors.h. */
   LINK_COLOR_START = COUPLING_COLOR_START + COLOR_ENTRIES,
-  COUNT_TOTAL = LINK_COLOR_START + (int)COLOR_LIMIT
+  /* Of each colour and of the overflow constraints, the first contact of bodies that take many substeps:
+     batching/class_order.h. */
+  MANY_COLOR_START = LINK_COLOR_START + (int)COLOR_LIMIT,
+  COUNT_TOTAL = MANY_COLOR_START + (int)COLOR_LIMIT + 1
 };
 
 enum {
@@ -145,7 +151,7 @@ enum {
   STATUS_NONFINITE = 8,   /* a body is not finite: quarantine it and run the step again */
   STATUS_ISLANDS = 16,    /* islands need more rounds */
   STATUS_WAKE = 32,       /* sleeping bodies were touched: wake their islands and run the step again */
-  STATUS_SUBSTEPS = 64,   /* loads and stacks need more substeps */
+  STATUS_SUBSTEPS = 64,   /* loads and stacks need more substeps, or other bodies need them than took them */
   STATUS_DEADLOCK = 128,  /* work-groups of a launch waited for each other in vain (cl/phases.cl) */
   STATUS_CANDIDATES = 256 /* more pairs of fat boxes than capacity, so that pairs may be missing */
 };

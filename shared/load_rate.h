@@ -42,4 +42,14 @@ SHARED mask note_rate(GLOBAL const Parameters *parameters, mask wanted, real rat
   return noted;
 }
 
+/* Bodies that bear what the fewest substeps do not wish for many (sleeping/wishes.h). noted: of note_rate. */
+SHARED void note_wishes(GLOBAL const Parameters *parameters, mask noted, real rate, GLOBAL uint *body_wish,
+                        uint_lanes a, uint_lanes b)
+{
+  mask wishes = noted & (minimum(rate, HIGHEST_RATE) > (real)parameters->few_rate);
+  if (!any_of(wishes)) return;
+  atomic_max_if(wishes, body_wish, a, (uint_lanes)1u);
+  atomic_max_if(wishes, body_wish, b, (uint_lanes)1u);
+}
+
 #endif

@@ -45,12 +45,14 @@ typedef struct {
   PARAMETER_REAL crowd_bias_rate; /* the same of joints that share a body, whose mass scale is 1 less the leak */
   PARAMETER_REAL crowd_impulse_scale;
   PARAMETER_REAL spin_fall; /* m/s^2, half of gravity if spin limits what is left in place, else 0 */
+  PARAMETER_REAL few_rate;  /* 1/s^2, COUNT_LOAD_RATE that the fewest substeps bear: load_rate.h */
+  PARAMETER_REAL few_share; /* the fewest substeps as a share of the many that some islands take, else 1 */
   uint sleep_steps;        /* of rest, before a body may fall asleep; the first whole number */
   uint joined_pairs_first; /* the first entry of body_filter that holds pairs of bodies that do not collide */
   uint joined_pairs_mask;  /* their number, a power of two, minus 1: broadphase/joined_pairs.h */
   uint joints;             /* the stride of planes of axes */
   uint joint_axes;         /* planes: the most axes of a joint */
-  uint unused;             /* for an even number */
+  uint substep_class;      /* of the bodies that a pass moves: substep_classes.h */
   ulong features;          /* a bit for each row of features.def */
 } Parameters;
 #endif

@@ -23,16 +23,18 @@ RowKernels kernels_of(Element element)
   return {Kernel::gather_uints, Kernel::scatter_uints, Buffer::moved_uints};
 }
 
-void find_islands(StepLaunches &step)
+/* hook: of contacts, by their constraints or by their pairs. */
+void find_islands(StepLaunches &step, Kernel hook)
 {
   const uint32_t rounds = step.plan().island_rounds;
   step.run(Kernel::begin_islands);
   for (uint32_t round = 0; round < rounds; ++round) {
-    step.run(Kernel::hook_islands, {round});
+    step.run(hook, {round});
     if (step.has(FEATURE_JOINTS)) step.run(Kernel::hook_joints, {round});
     if (step.has(FEATURE_COUPLINGS)) step.run(Kernel::hook_couplings, {round});
     if (step.has_links()) step.run(Kernel::hook_links, {round});
     step.run(Kernel::jump_islands, {round});
+    step.run(Kernel::follow_labels);
   }
   step.run(Kernel::finish_islands, {rounds});
 }
@@ -75,12 +77,19 @@ void find_drowsy_islands(StepLaunches &step)
   if (step.has(FEATURE_JOINT_AXES)) step.run(Kernel::disturb_driven);
   if (step.has_links()) step.run(Kernel::disturb_driven_links);
   if (!step.plan().drowsy) return;
-  find_islands(step);
+  find_islands(step, Kernel::hook_islands);
   step.run(Kernel::keep_islands_awake);
   step.run(Kernel::keep_carried_awake);
   if (step.has(FEATURE_JOINTS)) step.run(Kernel::keep_joined_awake);
   if (step.has(FEATURE_TRIGGER)) step.run(Kernel::keep_triggers_awake);
   step.run(Kernel::choose_sleepers);
+}
+
+void part_islands(StepLaunches &step)
+{
+  find_islands(step, Kernel::hook_pairs);
+  step.run(Kernel::gather_wishes);
+  step.run(Kernel::class_bodies);
 }
 
 void move_body_rows(Launcher &launcher, const BodyRows &rows, uint32_t length, uint32_t most)

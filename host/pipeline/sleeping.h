@@ -17,6 +17,8 @@ void append_sleepers(StepLaunches &step, uint32_t fallen);
 void renumber_sleepers(Launcher &launcher, uint32_t awake, uint32_t most);
 /* Lists the pairs of a body that is awake and a sleeper near it, as the step's pairs. */
 void find_near_sleepers(StepLaunches &step);
+/* Finds which bodies take many substeps: all of an island of which one wishes for them (shared/sleeping/wishes.h). */
+void part_islands(StepLaunches &step);
 /* Counts for how long bodies have rested, and chooses those that fall asleep. */
 void find_drowsy_islands(StepLaunches &step);
 

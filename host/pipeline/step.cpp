@@ -48,6 +48,7 @@ public:
     run_extensions(StepPoint::begin);
     find_pairs();
     if (plan().substeps.automatic) clear_standing(Buffer::previous_cached_standing);
+    if (plan().substeps.automatic) forget_wishes();
     if (plan().apart) expect_no_pairs();
     else find_constraints();
     if (plan().substeps.automatic && layers_at_start() != 0) {
@@ -59,6 +60,7 @@ public:
     run_extensions(StepPoint::constraints);
     row_of(settings().solver).launch(*this);
     if (plan().substeps.automatic && has(FEATURE_JOINTS)) run(Kernel::weigh_joints, {plan().substeps.starts});
+    if (plan().islands_apart) run(Kernel::keep_wishes, {steps_of_wish(plan().substeps, settings())});
     if (has(FEATURE_CONTINUOUS)) keep_out_of_walls();
     run_extensions(StepPoint::solved);
     if (plan().sleeping) find_drowsy_islands(*this);
@@ -212,12 +214,16 @@ private:
     const BatcherRow &batcher = row_of(settings().batching);
     run(Kernel::match_pairs, {batcher.keeps_colors ? 1u : 0u});
     batcher.launch(*this);
-    const bool by_world = has_worlds_with_overflow(), by_link = has_links();
+    const bool by_world = has_worlds_with_overflow(), by_link = has_links(), by_class = plan().islands_apart;
+    if (by_class) part_islands(*this);
     if (by_world) find_color_keys_by_world();
     else if (by_link) run(Kernel::link_color_keys);
-    else run(Kernel::color_keys);
+    else run(by_class ? Kernel::class_color_keys : Kernel::color_keys);
     sort(Buffer::sort_key, Buffer::sort_value, COUNT_PAIRS, plan().capacity_pairs, 0, 8);
-    run(by_world ? Kernel::world_color_starts : by_link ? Kernel::link_color_starts : Kernel::color_starts);
+    run(by_world   ? Kernel::world_color_starts
+        : by_link  ? Kernel::link_color_starts
+        : by_class ? Kernel::class_color_starts
+                   : Kernel::color_starts);
     if (settings().check) launch_check(*this);
   }
 
@@ -254,6 +260,15 @@ private:
     }
   }
 
+  /* Steps in which all bodies take the fewest substeps keep no wishes, and no side of their buffer may hold any that a
+   * step before has kept. */
+  void forget_wishes()
+  {
+    if (plan().forgets_wishes) run_range(Kernel::fill, COUNT_ZERO, COUNT_BODIES, {0}, {Buffer::body_wish});
+    if (plan().islands_apart || plan().substeps.wishes_left == 0) return;
+    run_range(Kernel::fill, COUNT_ZERO, COUNT_BODIES, {0}, {Buffer::previous_cached_wish});
+  }
+
   void keep_out_of_walls()
   {
     run_range(Kernel::fill, COUNT_ZERO, COUNT_BODIES, {WHOLE_TOI_FRACTION}, {Buffer::body_toi_fraction});
@@ -264,9 +279,10 @@ private:
   void commit()
   {
     run(Kernel::check_bodies);
-    run(Kernel::finish_step, {plan().colors, highest_load_rate(plan().substeps, settings())});
+    run(Kernel::finish_step, {plan().colors, highest_load_rate(plan().substeps, settings()), plan().classes});
     if (has(FEATURE_EVENTS)) list_events();
     if (settings().pair_events) list_pair_events();
+    if (plan().islands_apart && (plan().classes & MANY_SUBSTEPS)) share_impulses_of_contacts(*this, true);
     launcher().begin_commit();
     run(Kernel::commit_bodies);
     if (balances_trees()) run(Kernel::commit_tree_balance);
@@ -274,6 +290,7 @@ private:
     if (plan().forces) run(Kernel::clear_forces);
     if (plan().sleeping)
       run_range(Kernel::copy, COUNT_ZERO, COUNT_COMMIT_BODIES, {}, {Buffer::rest_count, Buffer::resting_steps});
+    if (plan().islands_apart) run_range(Kernel::fill, COUNT_ZERO, COUNT_COMMIT_BODIES, {0}, {Buffer::body_wish});
     run(Kernel::cache_starts);
     run(Kernel::cache_pairs);
     run(Kernel::cache_impulses);

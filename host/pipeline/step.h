@@ -49,6 +49,9 @@ struct StepPlan {
   bool trees_apart = false;                  /* nor has a world two articulations */
   bool apart = false;                        /* no pair was found for so long that a step looks for pairs alone */
   SubstepChoice substeps;                    /* if the world chooses them itself */
+  bool islands_apart = false;                /* those that want more than the fewest substeps take more, others not */
+  uint32_t classes = 0;                      /* of bodies that the solver moves then: shared/substep_classes.h */
+  bool forgets_wishes = true;                /* of an attempt that knew not all contacts, or other bodies */
   uint32_t hits = 0;                         /* that a cast has left on the device for kernels of modules */
   std::array<uint32_t, COUNT_TOTAL> known{}; /* counts after the last step */
 };

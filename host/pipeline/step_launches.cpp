@@ -50,10 +50,41 @@ void StepLaunches::run_pairs(Kernel kernel, uint32_t first_kind, uint32_t last_k
 /* A contact of a link is solved by solve_tree_contacts or for_each_link_color. */
 void StepLaunches::launch_color(Kernel kernel, uint32_t color, const Values &values)
 {
+  if (substep_class_ != EVERY_CLASS)
+    return launch_contacts(kernel, COLOR_START + color, MANY_COLOR_START + color, COLOR_START + color + 1, values);
   if (has_links() && plan_.links_alone) return;
   const uint32_t first = COLOR_START + color, begins = limited_ ? WORLD_COLOR_START + color : first;
   const uint32_t end = has_links() ? LINK_COLOR_START + color : first + 1;
   launcher_.launch({kernel, {}, values, begins, end, plan_.known[end] - plan_.known[first]});
+}
+
+/* Of contacts, those of many substeps from `middle` on. What is known may be of a step that parted none. */
+void StepLaunches::launch_contacts(Kernel kernel, uint32_t first, uint32_t middle, uint32_t end, const Values &values,
+                                   const Slots &slots)
+{
+  const uint32_t all = plan_.known[end] - plan_.known[first];
+  if (substep_class_ == MANY_SUBSTEPS) first = middle;
+  else if (substep_class_ == FEW_SUBSTEPS) end = middle;
+  launcher_.launch({kernel, slots, values, first, end, std::min(all, plan_.known[end] - plan_.known[first])});
+}
+
+void StepLaunches::run_overflow(Kernel kernel, const Values &values, const Slots &slots)
+{
+  launch_contacts(kernel, COLOR_START + COLOR_OVERFLOW, MANY_COLOR_START + COLOR_OVERFLOW, COUNT_CONSTRAINTS, values,
+                  slots);
+}
+
+void StepLaunches::run_contacts(Kernel kernel, const Values &values)
+{
+  if (substep_class_ == EVERY_CLASS) return run(kernel, values);
+  for_each_color(kernel, values);
+  if (plan_.colors > COLOR_LIMIT) run_overflow(kernel, values);
+}
+
+void StepLaunches::take_class(uint32_t substep_class)
+{
+  substep_class_ = substep_class;
+  run(Kernel::take_parameters, {substep_class});
 }
 
 void StepLaunches::for_each_color(Kernel kernel, const Values &values)
@@ -155,12 +186,12 @@ void StepLaunches::for_each_color(Kernel kernel, Kernel overflow, const Values &
 
 void StepLaunches::begin_substep(uint32_t substep)
 {
-  if (has(FEATURE_EVENTS)) run(Kernel::sum_impulses, {substep});
+  if (has(FEATURE_EVENTS)) run_contacts(Kernel::sum_impulses, {substep});
   if (plan_.forces) run(Kernel::begin_forces);
   run_extensions(StepPoint::forces);
   if (plan_.forces) run(Kernel::apply_forces);
   run(Kernel::integrate_velocities, {substep == 0 && !has_links()});
-  if (balances_trees() && substep + 1 == settings_.substeps) run(Kernel::begin_tree_balance, {plan_.forces});
+  if (balances_trees() && substep + 1 == substeps()) run(Kernel::begin_tree_balance, {plan_.forces});
   if (has_links()) run(Kernel::accelerate_articulations, {plan_.forces});
   if (has(FEATURE_MAX_SPEED)) run(Kernel::clamp_speeds);
 }

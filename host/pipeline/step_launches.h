@@ -18,6 +18,8 @@ public:
 
   const StepPlan &plan() const { return plan_; }
   const Settings &settings() const { return settings_; }
+  /* Of the bodies that passes move. */
+  uint32_t substeps() const { return substep_class_ == MANY_SUBSTEPS ? plan_.substeps.now : settings_.substeps; }
   Launcher &launcher() { return launcher_; }
   bool has(Features feature) const { return (plan_.features & feature) != 0; }
   /* A scene may lack articulations though every feature is built. */
@@ -59,6 +61,11 @@ public:
   void for_each_coupling_color(Kernel kernel, const Values &values = {});
   /* Launches a kernel over the couplings past the last colour, if there are some: over each, or one item for all. */
   void run_overflow_couplings(Kernel kernel, const Values &values = {});
+  /* Launches a kernel over the constraints of the bodies that passes move, or over those of them without a colour. */
+  void run_contacts(Kernel kernel, const Values &values = {});
+  void run_overflow(Kernel kernel, const Values &values = {}, const Slots &slots = {});
+  /* From now on, passes move the bodies of this class: shared/substep_classes.h. */
+  void take_class(uint32_t substep_class);
   /* From now on, the colours of a batch of worlds are the constraints of those worlds that have overflow constraints,
    * or all again. */
   void limit_to_worlds_with_overflow(bool limited) { limited_ = limited; }
@@ -80,6 +87,8 @@ public:
 
 private:
   void launch_color(Kernel kernel, uint32_t color, const Values &values);
+  void launch_contacts(Kernel kernel, uint32_t first, uint32_t middle, uint32_t end, const Values &values,
+                       const Slots &slots = {});
   void push_links(uint32_t pass);
   void solve_link_joints(uint32_t pass);
   void solve_unmixed_trees(uint32_t pass);
@@ -89,6 +98,7 @@ private:
   const StepPlan &plan_;
   const Settings &settings_;
   bool limited_ = false;
+  uint32_t substep_class_ = EVERY_CLASS;
 };
 
 } // namespace tandem

@@ -75,6 +75,19 @@ uint32_t highest_load_rate_of(const Settings &settings, uint32_t substeps)
   return std::bit_cast<uint32_t>(round_to_float(rate * rate));
 }
 
+bool is_a_second(uint32_t steps, const Settings &settings)
+{
+  const float of_float = steps;
+  return of_float * settings.step >= 1;
+}
+
+uint32_t steps_of_a_second(const Settings &settings)
+{
+  uint32_t steps = static_cast<uint32_t>(std::clamp(1 / double{settings.step}, 1.0, 1e8));
+  while (!is_a_second(steps, settings)) ++steps;
+  return steps;
+}
+
 } // namespace
 
 uint32_t fewest_substeps(const Settings &settings)
@@ -122,10 +135,23 @@ void settle_substeps(SubstepChoice &choice, uint32_t load_rate, const Settings &
   const uint32_t half = choice.now / 2;
   const bool is_calm = half >= fewest_substeps(settings) && load_rate <= highest_load_rate_of(settings, half);
   choice.calm_steps = is_calm ? choice.calm_steps + 1 : 0;
-  const float calm_steps = choice.calm_steps;
-  if (calm_steps * settings.step < 1) return;
+  if (!is_a_second(choice.calm_steps, settings)) return;
   choice.now = half;
   choice.calm_steps = 0;
+}
+
+SubstepChoice choice_of_few(const SubstepChoice &choice, const Settings &settings)
+{
+  SubstepChoice few = choice;
+  few.now = fewest_substeps(settings);
+  return few;
+}
+
+uint32_t steps_of_wish(const SubstepChoice &choice, const Settings &settings)
+{
+  uint32_t seconds = 0;
+  for (uint32_t substeps = choice.now; substeps > fewest_substeps(settings); substeps /= 2) ++seconds;
+  return seconds * steps_of_a_second(settings);
 }
 
 Settings with_substeps(const Settings &settings, const SubstepChoice &choice)

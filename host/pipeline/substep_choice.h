@@ -13,6 +13,9 @@ namespace tandem {
 
 constexpr uint32_t fewest_automatic_substeps = 4, most_automatic_substeps = 64;
 
+/* Of cached_wish, as of all that a step hands to the next. */
+constexpr uint32_t sides_of_wishes = 2;
+
 struct SubstepChoice {
   bool automatic = false;
   bool starts = true;           /* no step has been done, so nothing is known of what stands on what */
@@ -20,6 +23,7 @@ struct SubstepChoice {
   uint32_t of_cache = 0;        /* of the step that left the impulses in the cache */
   uint32_t calm_steps = 0;      /* that needed no more than half of them */
   uint32_t layers_at_start = 0; /* COUNT_BRACED_LAYERS of the first step */
+  uint32_t wishes_left = 0;     /* sides of cached_wish that a step of islands apart may have written */
 };
 
 /* More than 4 and 64 if contacts are asked for that are stiffer than these allow. */
@@ -39,6 +43,12 @@ void note_start(SubstepChoice &choice, uint32_t braced_layers);
 
 /* After a step that is done. */
 void settle_substeps(SubstepChoice &choice, uint32_t load_rate, const Settings &settings);
+
+/* The same world, as far as it takes the fewest. */
+SubstepChoice choice_of_few(const SubstepChoice &choice, const Settings &settings);
+
+/* For so many steps a body that wished for many takes them: until the world would be back at the fewest. */
+uint32_t steps_of_wish(const SubstepChoice &choice, const Settings &settings);
 
 /* The settings with these substeps, and with contacts as stiff as they allow if they are more than four. */
 Settings with_substeps(const Settings &settings, const SubstepChoice &choice);

@@ -267,6 +267,7 @@ void stage_new_bodies(StagedUploads &uploads, const Scene &scene, const HullNumb
   /* The places may be those of bodies of a state that was gone back from. */
   uploads.add(Buffer::resting_steps, std::vector<uint32_t>(bodies.size()), first);
   uploads.add(Buffer::cached_standing, std::vector<uint32_t>(2 * bodies.size()), first);
+  uploads.add(Buffer::cached_wish, std::vector<uint32_t>(bodies.size()), first);
   states.stage(uploads, first);
   shapes.stage(uploads, first);
 }

@@ -211,10 +211,12 @@ void World::Implementation::set_gravity(const Vec3 &gravity)
   settle();
   wake_all();
   const Vec3 before = std::exchange(scene.gravity, gravity);
-  const Parameters parameters = parameters_now();
-  scene.gravity = before;
-  memory.upload(Buffer::parameters, &parameters, sizeof parameters);
-  scene.gravity = gravity;
+  try {
+    upload_parameters();
+  } catch (...) {
+    scene.gravity = before;
+    throw;
+  }
   if (settings.sleeping) { /* a slow start is no rest */
     const std::vector<uint32_t> none(special.awake);
     memory.upload(Buffer::resting_steps, none.data(), none.size() * sizeof(uint32_t));

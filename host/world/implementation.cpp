@@ -2,6 +2,7 @@
 #include "host/world/implementation.h"
 
 #include <algorithm>
+#include <bit>
 #include <chrono>
 
 #include <fmt/format.h>
@@ -83,7 +84,7 @@ World::Implementation::Implementation(Beginning beginning, const Placement &plac
   plan.forces = beginning.forces || module_applies_forces();
   plan.sleeping = settings.sleeping;
   plan.substeps = first_choice(settings);
-  told_substeps = {plan.substeps.now, plan.substeps.of_cache};
+  told_substeps = {plan.substeps.now, plan.substeps.of_cache, false};
   special.features = features_run();
   plan.features = special.features;
   plan.bodies = beginning.room;
@@ -171,13 +172,19 @@ void World::Implementation::record_kernels()
   all.joint_colors = joint_graph.colors; /* whoever sleeps */
   all.link_joint_colors = joint_graph.link_colors;
   all.substeps.starts = all.substeps.automatic;
+  all.islands_apart = may_part_islands();
+  all.classes = all.islands_apart ? FEW_SUBSTEPS | MANY_SUBSTEPS : 0;
+  all.substeps.wishes_left = 0;
   all.rounds = BATCH_ROUNDS * COLOR_LIMIT; /* the most rounds after which a batcher launches another kernel */
   all.known[COUNT_PAIRS] = all.known[COUNT_CONSTRAINTS] = most_pairs; /* many pairs, which touch */
   all.known[COUNT_ARTICULATIONS] = static_cast<uint32_t>(scene.articulations.size());
   Recorder recorder;
   all.drowsy = all.sleepers = all.other_sleepers = settings.sleeping;
   launch_step(recorder, all, settings_in_use);
+  if (all.islands_apart) /* what other steps launch in the place of that */
+    for (const Kernel kernel : {Kernel::color_keys, Kernel::color_starts}) recorder.note(kernel);
   recorder.end_step();
+  if (all.islands_apart) recorder.note(Kernel::keep_wishes); /* other steps leave what that writes as it is */
   note_shapes(recorder);
   if (settings.sleeping) note_sleep(recorder);
   if (is_batch()) note_batch(recorder);
@@ -281,18 +288,62 @@ void World::Implementation::upload_scene()
   number_bodies();
 }
 
-Parameters World::Implementation::parameters_now() const
+/* Modules launch in each substep, and trees are solved as wholes; so worlds with either have one number of substeps. */
+bool World::Implementation::may_part_islands() const noexcept
 {
-  Parameters parameters = parameters_of(scene, settings_in_use, special.features, special.median);
-  const float before = plan.substeps.of_cache, now = plan.substeps.now;
+  return plan.substeps.automatic && scene.articulations.empty() && settings.extensions.empty();
+}
+
+/* Of the last step. */
+uint32_t World::Implementation::bodies_with_more_substeps() const
+{
+  if (!plan.substeps.automatic || !whole || idle) return 0;
+  if (plan.islands_apart) return plan.known[COUNT_MANY_BODIES];
+  return plan.substeps.of_cache > fewest_substeps(settings) ? awake_dynamics : 0;
+}
+
+SubstepChoice World::Implementation::choice_of_others() const
+{
+  return plan.islands_apart ? choice_of_few(plan.substeps, settings) : plan.substeps;
+}
+
+Parameters World::Implementation::parameters_now() const { return parameters_with(choice_of_others(), EVERY_CLASS); }
+
+Parameters World::Implementation::parameters_with(const SubstepChoice &choice, uint32_t substep_class) const
+{
+  Parameters parameters = parameters_of(scene, with_substeps(settings, choice), special.features, special.median);
+  const float before = plan.substeps.of_cache, now = choice.now;
+  parameters.substep_class = substep_class;
   parameters.joints = static_cast<uint32_t>(scene.joints.size());
   parameters.joint_axes = joint_graph.axes;
   parameters.joined_pairs_first = first_joined_pair(sizes());
   parameters.joined_pairs_mask = std::max(joined_pair_entries(scene, joint_graph, joint_order.awake()), 1u) - 1;
+  parameters.few_share = 1;
   if (!plan.substeps.automatic) return parameters;
+  const SubstepChoice few = choice_of_few(plan.substeps, settings);
+  parameters.few_rate = std::bit_cast<float>(highest_load_rate(few, settings));
+  const float fewest = few.now, most = plan.substeps.now;
+  if (plan.islands_apart) parameters.few_share = fewest / most;
   parameters.warm_start_scale = before / now;
   parameters.spin_fall = 0.5f * parameters.gravity_length;
   return parameters;
+}
+
+void World::Implementation::stage_parameters(StagedUploads &uploads) const
+{
+  const Parameters told = parameters_now();
+  uploads.add(Buffer::parameters, std::vector<Parameters>{told});
+  if (!may_part_islands()) return;
+  uploads.add(Buffer::told_parameters, std::vector<Parameters>{told});
+  uploads.add(Buffer::few_parameters, std::vector<Parameters>{parameters_with(choice_of_others(), FEW_SUBSTEPS)});
+  uploads.add(Buffer::many_parameters, std::vector<Parameters>{parameters_with(plan.substeps, MANY_SUBSTEPS)});
+}
+
+void World::Implementation::upload_parameters()
+{
+  StagedUploads uploads;
+  stage_parameters(uploads);
+  uploads.write(memory);
 }
 
 /* The tables of shapes, materials and parameters, which only calls of the user change. */
@@ -304,7 +355,7 @@ void World::Implementation::stage_tables(StagedUploads &uploads)
   trees = {trees.sizes, {}, {}, {}, {}, {}, {}, {}, {}}; /* the buffers hold the rest */
   stage_materials(uploads, scene);
   stage_joint_tables(uploads, special.order);
-  uploads.add(Buffer::parameters, std::vector<Parameters>{parameters_now()});
+  stage_parameters(uploads);
   uploaded_shapes = scene.shapes.size();
   uploaded_materials = scene.materials.size();
 }

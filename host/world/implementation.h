@@ -112,6 +112,12 @@ struct World::Implementation {
   PlacementReport placement_report() const;
   void upload_scene();
   Parameters parameters_now() const;
+  Parameters parameters_with(const SubstepChoice &choice, uint32_t substep_class) const;
+  bool may_part_islands() const noexcept;
+  uint32_t bodies_with_more_substeps() const;
+  SubstepChoice choice_of_others() const; /* than islands that are apart */
+  void stage_parameters(StagedUploads &uploads) const;
+  void upload_parameters();
   void stage_tables(StagedUploads &uploads);
   void stage_counts(StagedUploads &uploads) const;
   void number_bodies();
@@ -164,6 +170,8 @@ struct World::Implementation {
   void plan_more_colors(uint32_t status);
   void accept() noexcept;
   void prepare_repetition(uint32_t status, bool &may_forget);
+  void settle_islands() noexcept;
+  uint32_t classes_needed() const noexcept;
   bool candidates_overflow() const;
   uint32_t pairs_needed() const;
   void grow_pairs(bool &may_forget);
@@ -444,10 +452,10 @@ struct World::Implementation {
   bool launches_ended = true;
   std::optional<Attempt> attempt; /* what was before the step that has been attempted, and neither completed nor
                                      abandoned; none if nothing moves */
-  bool turned = false; /* the commit of an unfinished step has begun */
-  bool idle = false;   /* the last step had nothing to do, so it has no events and no contacts */
-  std::string lost;    /* why the world cannot go on; else empty */
-  bool whole = true;   /* the last step succeeded; after one that failed there are no events or figures */
+  bool turned = false;            /* the commit of an unfinished step has begun */
+  bool idle = false;              /* the last step had nothing to do, so it has no events and no contacts */
+  std::string lost;               /* why the world cannot go on; else empty */
+  bool whole = true;              /* the last step succeeded; after one that failed there are no events or figures */
   /* Bodies that an unfinished step has quarantined, by their index in the buffers, with their earlier records. */
   std::vector<std::pair<uint32_t, BodyRecord>> taken_out;
   std::vector<uint32_t> index_of_body;   /* by slot; for a free one, that of its last body */
@@ -472,7 +480,12 @@ struct World::Implementation {
   std::optional<BatchFault> fault;
   Statistics statistics;
   /* The substeps that the parameters on the device have, and those of the cache that they know. */
-  std::pair<uint32_t, uint32_t> told_substeps;
+  struct ToldSubsteps {
+    uint32_t now = 0, of_cache = 0;
+    bool islands_apart = false;
+    bool operator==(const ToldSubsteps &) const = default;
+  };
+  ToldSubsteps told_substeps;
   std::optional<uint64_t> first_outgrown; /* the first step that found more pairs than there was room for */
   uint32_t first_world = 0;               /* of a group: its number in the batch */
   uint32_t cached_pairs = 0;              /* in the contact cache, as cached_start says */

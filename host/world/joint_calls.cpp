@@ -221,7 +221,7 @@ void World::Implementation::stage_joints_again(StagedUploads &uploads, std::span
   stage_joint_tables(uploads, order);
   for (const auto &[entry, value] : joint_entries_of(joint_order.starts()))
     uploads.add_count(static_cast<uint32_t>(entry), value);
-  uploads.add(Buffer::parameters, std::vector<Parameters>{parameters_now()});
+  stage_parameters(uploads);
 }
 
 void World::Implementation::write_joints(const JointImpulses &impulses)

@@ -72,7 +72,7 @@ void World::Implementation::tell_joints()
     stage_bodies_of_links(uploads, links, index_of_body, plan.bodies, slots.status(), special.awake);
   for (const auto &[entry, value] : joint_entries_of(joint_order.starts()))
     uploads.add_count(static_cast<uint32_t>(entry), value);
-  uploads.add(Buffer::parameters, std::vector<Parameters>{parameters_now()});
+  stage_parameters(uploads);
   uploads.write(memory);
   plan_joints();
 }

@@ -146,6 +146,7 @@ void World::Implementation::run_until_whole(const StepLimits &limits)
     launch_whole_step();
     memory.download(Buffer::counts, plan.known.data(), sizeof plan.known);
     launches_ended = true;
+    plan.forgets_wishes = false;
     if (!(plan.known[COUNT_STATUS] & STATUS_DEADLOCK)) check_limits(limits);
     if (plan.known[COUNT_STATUS] == 0) return;
     turn_back();
@@ -176,12 +177,15 @@ void World::Implementation::launch_whole_step()
 /* Only worlds that choose their substeps ever tell them anew. */
 void World::Implementation::tell_substeps()
 {
-  const std::pair<uint32_t, uint32_t> wanted = {plan.substeps.now, plan.substeps.of_cache};
+  plan.islands_apart = may_part_islands() && plan.substeps.now > fewest_substeps(settings);
+  if (plan.islands_apart) plan.apart = false; /* colours know no classes yet */
+  else plan.classes = 0;
+  if (plan.islands_apart && plan.classes == 0) plan.classes = FEW_SUBSTEPS | MANY_SUBSTEPS;
+  const ToldSubsteps wanted = {plan.substeps.now, plan.substeps.of_cache, plan.islands_apart};
   if (wanted == told_substeps) return;
-  Settings before = std::exchange(settings_in_use, with_substeps(settings, plan.substeps));
+  Settings before = std::exchange(settings_in_use, with_substeps(settings, choice_of_others()));
   try {
-    const Parameters parameters = parameters_now();
-    memory.upload(Buffer::parameters, &parameters, sizeof parameters);
+    upload_parameters();
   } catch (...) {
     settings_in_use = std::move(before);
     throw;
@@ -216,6 +220,9 @@ void World::Implementation::undo(const Attempt &before) noexcept
   const PairCapacity grown = capacity();
   plan = before.plan;
   plan.apart = false; /* an attempt may have left lists and colours of other pairs */
+  plan.forgets_wishes = true;
+  plan.substeps.wishes_left = sides_of_wishes;
+  if (plan.substeps.automatic) told_substeps = {}; /* it may have left the parameters of some islands */
   set_capacity(grown);
   plan.sleepers = !sleepers.empty();
   plan.other_sleepers = true;
@@ -316,22 +323,53 @@ void World::Implementation::accept() noexcept
   cached_pairs = plan.known[COUNT_PAIRS];
   awake_at_last = special.awake;
   plan_colors();
-  if (plan.drowsy) plan.island_rounds = std::max<uint32_t>(plan.known[COUNT_ISLAND_ROUNDS] + 2, 4);
+  if (plan.drowsy || plan.islands_apart)
+    plan.island_rounds = std::max<uint32_t>(plan.known[COUNT_ISLAND_ROUNDS] + 2, 4);
   plan.drowsy = plan.known[COUNT_DROWSY] > 0;
   trees_trial.note_step(settings.broadphase == Broadphase::trees, plan.known[COUNT_INSERTED] > 0,
                         cached_pairs / std::max(1.0, double(special.awake)));
   note_start(plan.substeps, plan.known[COUNT_BRACED_LAYERS]);
   settle_substeps(plan.substeps, plan.known[COUNT_LOAD_RATE], settings);
+  settle_islands();
   note_sorted();
+}
+
+/* Impulses of islands apart are those of the fewest substeps. Other steps leave the wishes of those that want more. */
+void World::Implementation::settle_islands() noexcept
+{
+  SubstepChoice &choice = plan.substeps;
+  if (!choice.automatic) return;
+  if (plan.islands_apart) {
+    plan.classes = classes_needed();
+    choice.of_cache = fewest_substeps(settings);
+    choice.wishes_left = sides_of_wishes;
+    return;
+  }
+  if (choice.wishes_left > 0) --choice.wishes_left;
+  const SubstepChoice few = choice_of_few(choice, settings);
+  if (plan.known[COUNT_LOAD_RATE] > highest_load_rate(few, settings)) plan.forgets_wishes = true;
+}
+
+/* Bodies that move nowhere are with the few; and which classes there are, steps of one do not tell. */
+uint32_t World::Implementation::classes_needed() const noexcept
+{
+  if (!plan.islands_apart) return 0;
+  const uint32_t classes = plan.known[COUNT_SUBSTEP_CLASSES];
+  return classes != 0 ? classes : FEW_SUBSTEPS;
 }
 
 void World::Implementation::prepare_repetition(uint32_t status, bool &may_forget)
 {
-  if (status & STATUS_DEADLOCK) return backends.do_without_resident_groups();
+  if (status & (lacks_contacts | STATUS_WAKE | STATUS_DEADLOCK)) plan.forgets_wishes = true;
+  if (status & STATUS_DEADLOCK) {
+    if (plan.substeps.automatic) told_substeps = {};
+    return backends.do_without_resident_groups();
+  }
   plan_more_colors(status);
   if (status & STATUS_ISLANDS) plan.island_rounds = std::min(2 * plan.island_rounds, most_rounds);
   if ((status & STATUS_SUBSTEPS) && !(status & lacks_contacts))
     raise_substeps(plan.substeps, plan.known[COUNT_LOAD_RATE], settings);
+  plan.classes = plan.known[COUNT_LATE_WISHES] != 0 ? FEW_SUBSTEPS | MANY_SUBSTEPS : classes_needed();
   if (plan.colors > COLOR_LIMIT && !(status & lacks_pairs)) enlarge(capacity());
   if (status & STATUS_NONFINITE) quarantine_from(plan.known[COUNT_NONFINITE], status);
   note_sorted();

@@ -277,6 +277,7 @@ Statistics World::statistics()
     Statistics s = implementation_->statistics;
     if (implementation_->whole && !implementation_->idle) measure_contacts(implementation_->memory, s);
     s.substeps = implementation_->plan.substeps.now;
+    s.bodies_with_more_substeps = implementation_->bodies_with_more_substeps();
     s.asleep = implementation_->sleepers.count();
     s.sleeping_islands = static_cast<uint32_t>(implementation_->sleepers.islands());
     s.kinetic_energy = kinetic_energy(implementation_->memory, implementation_->scene, implementation_->special.order);

@@ -9,6 +9,7 @@
 #include "shared/batching/body_constraints.h"
 #include "shared/batching/cells.h"
 #include "shared/batching/check.h"
+#include "shared/batching/class_order.h"
 #include "shared/batching/coloring.h"
 #include "shared/batching/iterative.h"
 #include "shared/batching/match.h"

@@ -15,7 +15,7 @@
 #define TANDEM_SHARED_FORCES_APPLIED_FORCES_H
 
 #include "shared/integrate/positions.h"
-#include "shared/records.h"
+#include "shared/substep_classes.h"
 
 SHARED void begin_forces_item(GLOBAL const float4 *body_force, GLOBAL float4 *solver_force, item_index i)
 {
@@ -23,8 +23,9 @@ SHARED void begin_forces_item(GLOBAL const float4 *body_force, GLOBAL float4 *so
   store_float4(solver_force, i * 2u + 1u, load_float4(body_force, i * 2u + 1u));
 }
 
-SHARED void apply_forces_item(GLOBAL const Parameters *parameters, GLOBAL const float4 *solver_inertia,
-                              GLOBAL const float4 *solver_force, GLOBAL float4 *solver_velocity, item_index i)
+SHARED void apply_forces_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_class,
+                              GLOBAL const float4 *solver_inertia, GLOBAL const float4 *solver_force,
+                              GLOBAL float4 *solver_velocity, item_index i)
 {
   spatial_velocity m = load_velocity(solver_velocity, i);
   real h = parameters->substep;
@@ -32,13 +33,15 @@ SHARED void apply_forces_item(GLOBAL const Parameters *parameters, GLOBAL const 
   m.linear = add_scaled(m.linear, force, m.inverse_mass * h);
   m.angular = add_scaled(m.angular, symmetric_times(load_inertia(parameters, solver_inertia, i, m), torque), h);
   mask pushed = is_nonzero(force) | is_nonzero(torque); /* adding 0 would turn -0 into +0 */
-  store_velocity_if(pushed & (m.inverse_mass > R(0.0)), solver_velocity, i, m);
+  pushed = moved_among(parameters, body_class, pushed & (m.inverse_mass > R(0.0)), i);
+  store_velocity_if(pushed, solver_velocity, i, m);
 }
 
 SHARED void follow_forces_item(GLOBAL const Parameters *parameters, GLOBAL const float4 *body_gravity,
                                GLOBAL const uint *body_lock, GLOBAL const uint *body_falls,
-                               GLOBAL const memory_real *solver_free_power, GLOBAL const float4 *solver_velocity,
-                               GLOBAL const float4 *solver_force, GLOBAL float4 *solver_delta_pose, item_index i)
+                               GLOBAL const uint *body_class, GLOBAL const memory_real *solver_free_power,
+                               GLOBAL const float4 *solver_velocity, GLOBAL const float4 *solver_force,
+                               GLOBAL float4 *solver_delta_pose, item_index i)
 {
   spatial_velocity m = load_velocity(solver_velocity, i);
   real h = parameters->substep;
@@ -48,7 +51,7 @@ SHARED void follow_forces_item(GLOBAL const Parameters *parameters, GLOBAL const
   vec3 force = xyz(load_float4(solver_force, i * 2u));
   if (HAS_FEATURE(parameters, LOCKS)) force = without_locked_axes(force, linear_locks(load_uint(body_lock, i)));
   translation = add_scaled(translation, force, R(-0.5) * h * h * m.inverse_mass);
-  store_float4_if(free, solver_delta_pose, i * 2u, extend(translation, R(0.0)));
+  store_float4_if(moved_among(parameters, body_class, free, i), solver_delta_pose, i * 2u, extend(translation, R(0.0)));
 }
 
 /* The bounds hold the displacement by the force as well. */

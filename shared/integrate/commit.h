@@ -39,6 +39,9 @@ SHARED void begin_step_item(GLOBAL uint *counts, uint i)
   counts[COUNT_FALLING_ASLEEP] = 0u;
   counts[COUNT_LOAD_RATE] = 0u;
   counts[COUNT_BRACED_LAYERS] = 0u;
+  counts[COUNT_SUBSTEP_CLASSES] = 0u;
+  counts[COUNT_MANY_BODIES] = 0u;
+  counts[COUNT_LATE_WISHES] = 0u;
 }
 
 /* Where the step has moved a body. */
@@ -58,8 +61,16 @@ SHARED void check_bodies_item(GLOBAL const float4 *body_position, GLOBAL const f
                  NONFINITE_IN_INTEGRATE);
 }
 
+/* Bodies of other classes than the step moved, or passes for bodies that are not there, after which others might lie by
+ * a rounding elsewhere. classes: that the host launched passes for, 0 if for all bodies at once. */
+SHARED uint are_other_classes(GLOBAL const uint *counts, uint classes)
+{
+  uint found = counts[COUNT_SUBSTEP_CLASSES];
+  return classes != 0u && classes != (found != 0u ? found : FEW_SUBSTEPS) ? 1u : 0u;
+}
+
 /* colors: the number that the host launched. load_rate: the largest that its substeps bear. */
-SHARED void finish_step_item(GLOBAL uint *counts, uint colors, uint load_rate, uint i)
+SHARED void finish_step_item(GLOBAL uint *counts, uint colors, uint load_rate, uint classes, uint i)
 {
   (void)i;
   uint status = counts[COUNT_STATUS] & STATUS_DEADLOCK;
@@ -74,6 +85,7 @@ SHARED void finish_step_item(GLOBAL uint *counts, uint colors, uint load_rate, u
   if (counts[COUNT_ISLANDS_OPEN] != 0u) status |= STATUS_ISLANDS;
   if (counts[COUNT_TOUCHED_SLEEPERS] != 0u) status |= STATUS_WAKE;
   if (counts[COUNT_LOAD_RATE] > load_rate) status |= STATUS_SUBSTEPS;
+  if (counts[COUNT_LATE_WISHES] != 0u || are_other_classes(counts, classes)) status |= STATUS_SUBSTEPS;
   uint whole = status == 0u ? 1u : 0u;
   counts[COUNT_STATUS] = status;
   counts[COUNT_COMMIT_BODIES] = whole * counts[COUNT_BODIES];

@@ -13,6 +13,7 @@
 #include "shared/integrate/positions.h"
 #include "shared/integrate/prepare.h"
 #include "shared/integrate/stop_at_time_of_impact.h"
+#include "shared/integrate/take_parameters.h"
 #include "shared/integrate/velocities.h"
 
 #endif

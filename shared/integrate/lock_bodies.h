@@ -6,14 +6,15 @@
 #ifndef TANDEM_SHARED_INTEGRATE_LOCK_BODIES_H
 #define TANDEM_SHARED_INTEGRATE_LOCK_BODIES_H
 
-#include "shared/records.h"
+#include "shared/substep_classes.h"
 
-SHARED void lock_bodies_item(GLOBAL const uint *body_lock, GLOBAL float4 *solver_velocity,
+SHARED void lock_bodies_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_lock,
+                             GLOBAL const uint *body_class, GLOBAL float4 *solver_velocity,
                              GLOBAL float4 *solver_inertia, item_index i)
 {
   uint_lanes locks = load_uint(body_lock, i);
   spatial_velocity m = load_velocity(solver_velocity, i);
-  mask locked = (locks != 0u) & (m.inverse_mass > R(0.0));
+  mask locked = moved_among(parameters, body_class, (locks != 0u) & (m.inverse_mass > R(0.0)), i);
   if (!any_of(locked)) return;
   m.linear = without_locked_axes(m.linear, linear_locks(locks));
   m.angular = without_locked_axes(m.angular, angular_locks(locks));

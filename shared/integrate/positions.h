@@ -19,7 +19,7 @@
 #ifndef TANDEM_SHARED_INTEGRATE_POSITIONS_H
 #define TANDEM_SHARED_INTEGRATE_POSITIONS_H
 
-#include "shared/records.h"
+#include "shared/substep_classes.h"
 #include "shared/trigonometry.h"
 
 /* The angular velocity I(q)^-1 L, for principal inverse moments d. */
@@ -112,12 +112,19 @@ SHARED mask is_left_alone(GLOBAL const Parameters *parameters, vec3 gravity, spa
   return borne <= WEIGHTLESS * parameters->substep * length_squared(gravity);
 }
 
+/* Since the step began. */
+typedef struct {
+  vec3 translation, rotation;
+} motion_of_body;
+
 SHARED void integrate_positions_item(GLOBAL const Parameters *parameters, GLOBAL const float4 *body_mass,
                                      GLOBAL const float4 *body_gravity, GLOBAL const uint *body_lock,
-                                     GLOBAL const uint *body_falls, GLOBAL const memory_real *solver_free_power,
-                                     GLOBAL float4 *solver_velocity, GLOBAL float4 *solver_delta_pose,
-                                     GLOBAL float4 *solver_inertia, GLOBAL float4 *solver_orientation, item_index i)
+                                     GLOBAL const uint *body_falls, GLOBAL const uint *body_class,
+                                     GLOBAL const memory_real *solver_free_power, GLOBAL float4 *solver_velocity,
+                                     GLOBAL float4 *solver_delta_pose, GLOBAL float4 *solver_inertia,
+                                     GLOBAL float4 *solver_orientation, item_index i)
 {
+  if (leaves_bodies(parameters, body_class, i)) return;
   spatial_velocity m = load_velocity(solver_velocity, i);
   real h = parameters->substep;
   vec4 mass = load_float4(body_mass, i);
@@ -130,15 +137,15 @@ SHARED void integrate_positions_item(GLOBAL const Parameters *parameters, GLOBAL
 
   vec3 translation = xyz(load_float4(solver_delta_pose, i * 2u)),
        rotation = xyz(load_float4(solver_delta_pose, i * 2u + 1u));
-  translation = add_scaled(add_scaled(translation, m.linear, h), gravity, ahead);
-  store_float4(solver_delta_pose, i * 2u, extend(translation, R(0.0)));
-  store_float4(solver_delta_pose, i * 2u + 1u, extend(add_scaled(rotation, m.angular, h), R(0.0)));
+  motion_of_body way = {add_scaled(add_scaled(translation, m.linear, h), gravity, ahead),
+                        add_scaled(rotation, m.angular, h)};
 
   quat q = quat_from(load_float4(solver_orientation, i));
   quat next = turned(q, scale(m.angular, h));
   if (HAS_FEATURE(parameters, GYROSCOPIC)) {
     /* The choice is made for each body, so that its bits do not depend on the other bodies of the scene. */
     mask uneven = (m.inverse_mass > R(0.0)) & ((mass.x != mass.y) | (mass.y != mass.z));
+    uneven = moved_among(parameters, body_class, uneven, i);
     /* What holds an axis takes up the torque with which the body would change its angular velocity. */
     mask turns_freely = uneven & (angular_locks(locks) == 0u);
     spin s = turn_freely(q, m.angular, xyz(mass), h);
@@ -147,6 +154,14 @@ SHARED void integrate_positions_item(GLOBAL const Parameters *parameters, GLOBAL
     store_velocity_if(turns_freely, solver_velocity, i, m);
     store_inertia_if(uneven, solver_inertia, i, inertia_of(next, xyz(mass)));
   }
+  if (moves_one_class(parameters)) {
+    mask moved = is_moved(parameters, body_class, i);
+    way.translation = choose3(moved, way.translation, translation);
+    way.rotation = choose3(moved, way.rotation, rotation);
+    next = quat_from(choose4(moved, quat_to_vec4(next), quat_to_vec4(q)));
+  }
+  store_float4(solver_delta_pose, i * 2u, extend(way.translation, R(0.0)));
+  store_float4(solver_delta_pose, i * 2u + 1u, extend(way.rotation, R(0.0)));
   store_float4(solver_orientation, i, quat_to_vec4(next));
 }
 

@@ -292,6 +292,7 @@ SHARED joint solve_axes(GLOBAL const Parameters *parameters, joint j, joint_fram
   for (uint k = 0; k < parameters->joint_axes; ++k) {
     joint_axis axis = load_axis(parameters, axes, k, i);
     mask wanted = axis.kind != (uint_lanes)(uint)JOINT_AXIS_NONE;
+    if (moves_one_class(parameters)) wanted = wanted & !is_left_out(&j);
     if (!any_of(wanted)) continue;
     vec4 kept = load_float4(impulse, joint_plane(parameters, k) + i);
     j = with_joint_velocities_if(wanted, j, solve_axis(parameters, j, f, &axis, &kept, pass));

@@ -27,6 +27,7 @@ SHARED void bounce_at_limits_item(GLOBAL const Parameters *parameters, read_join
                                   read_joint_axes axes, GLOBAL const float4 *joint_bounce,
                                   GLOBAL float4 *solver_velocity, item_index i)
 {
+  if (leaves_out(parameters, joints, bodies, i)) return;
   joint j = load_joint(parameters, joints, bodies, solver_velocity, i);
   joint_frames f = frames_of(parameters, j, joints, i);
   for (uint k = 0; k < parameters->joint_axes; ++k) {
@@ -47,6 +48,7 @@ SHARED void follow_limits_item(GLOBAL const Parameters *parameters, read_joints 
                                read_joint_axes axes, read_joint_impulses impulses, GLOBAL const float4 *solver_velocity,
                                GLOBAL float4 *joint_bounce, uint begins, uint i)
 {
+  if (leaves_out(parameters, joints, bodies, i)) return;
   joint j = load_joint(parameters, joints, bodies, solver_velocity, i);
   joint_frames f = frames_of(parameters, j, joints, i);
   for (uint k = 0; k < parameters->joint_axes; ++k) {

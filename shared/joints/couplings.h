@@ -82,6 +82,14 @@ SHARED real coupling_value(real sum, real period)
   return choose(turns, sum - period * nearest_integer(sum / choose(turns, period, (real)R(1.0))), sum);
 }
 
+/* one, other: the places of the joints. */
+SHARED uint_lanes class_of_coupling(GLOBAL const uint *joint_a, GLOBAL const uint *joint_b, read_turning_bodies bodies,
+                                    uint_lanes one, uint_lanes other)
+{
+  return larger_class(class_of_joint(bodies, load_uint(joint_a, one), load_uint(joint_b, one)),
+                      class_of_joint(bodies, load_uint(joint_a, other), load_uint(joint_b, other)));
+}
+
 SHARED coupling load_coupling(GLOBAL const Parameters *parameters, read_couplings couplings, read_joints joints,
                               read_turning_bodies bodies, GLOBAL const float4 *solver_velocity, item_index i)
 {
@@ -91,6 +99,8 @@ SHARED coupling load_coupling(GLOBAL const Parameters *parameters, read_coupling
   c.awake = are_awake(a, b);
   a = choose(c.awake, a, (uint_lanes)0u);
   b = choose(c.awake, b, (uint_lanes)0u);
+  if (moves_one_class(parameters))
+    c.awake = c.awake & is_of_pass(parameters, class_of_coupling(joints.a, joints.b, bodies, a, b));
   joint one = load_coupled_joint(parameters, joints, bodies, solver_velocity, a),
         other = load_coupled_joint(parameters, joints, bodies, solver_velocity, b);
   joint_coordinate of_a = coordinate_of(one, load_coupled_frames(joints, one, a), kind & (uint)COUPLING_KIND_MASK),

@@ -12,6 +12,7 @@
 #include "shared/argument_groups.h"
 #include "shared/joints/joint_codes.h"
 #include "shared/records.h"
+#include "shared/substep_classes.h"
 
 /* body: of a side that is the world, any that exists. */
 typedef struct {
@@ -86,12 +87,54 @@ SHARED joint joint_between(joint_side a, joint_side b, uint_lanes modes, vec3 of
   return j;
 }
 
+SHARED uint_lanes class_of_side(read_turning_bodies bodies, uint_lanes given)
+{
+  uint_lanes own = load_uint(bodies.substep_class, body_of_side(given));
+  return choose(given == (uint_lanes)INDEX_NONE, (uint_lanes)NO_CLASS, own);
+}
+
+/* a, b: as the joint has them. */
+SHARED uint_lanes class_of_joint(read_turning_bodies bodies, uint_lanes a, uint_lanes b)
+{
+  return larger_class(class_of_side(bodies, a), class_of_side(bodies, b));
+}
+
+/* A joint of the other class is one of the world with itself that holds nothing, so that the pass changes neither its
+ * impulses nor its bodies. */
+SHARED joint left_out_if(mask m, joint j)
+{
+  j.a = world_if(m, j.a);
+  j.b = world_if(m, j.b);
+  j.a.is_world = j.a.is_world | m;
+  j.b.is_world = j.b.is_world | m;
+  j.modes = choose(m, (uint_lanes)0u, j.modes);
+  return j;
+}
+
+SHARED mask is_left_out(const joint *j) { return j->a.is_world & j->b.is_world; }
+
+/* Of a pass over one class of bodies. */
+SHARED mask is_joint_of_pass(GLOBAL const Parameters *parameters, read_joints joints, read_turning_bodies bodies,
+                             item_index i)
+{
+  return is_of_pass(parameters, class_of_joint(bodies, load_uint(joints.a, i), load_uint(joints.b, i)));
+}
+
+/* Whether the pass leaves out the joints of all lanes. */
+SHARED uint leaves_out(GLOBAL const Parameters *parameters, read_joints joints, read_turning_bodies bodies,
+                       item_index i)
+{
+  return moves_one_class(parameters) && !any_of(is_joint_of_pass(parameters, joints, bodies, i)) ? 1u : 0u;
+}
+
 SHARED joint load_joint(GLOBAL const Parameters *parameters, read_joints joints, read_turning_bodies bodies,
                         GLOBAL const float4 *solver_velocity, item_index i)
 {
   joint_side a = load_side(parameters, bodies, solver_velocity, load_uint(joints.a, i), load_float4(joints.arm_a, i)),
              b = load_side(parameters, bodies, solver_velocity, load_uint(joints.b, i), load_float4(joints.arm_b, i));
-  return joint_between(a, b, load_uint(joints.modes, i), xyz(load_float4(joints.offset, i)));
+  joint j = joint_between(a, b, load_uint(joints.modes, i), xyz(load_float4(joints.offset, i)));
+  if (moves_one_class(parameters)) j = left_out_if(!is_joint_of_pass(parameters, joints, bodies, i), j);
+  return j;
 }
 
 /* Bodies that cannot move are never written, because joints of one colour share them. */

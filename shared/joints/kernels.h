@@ -10,6 +10,7 @@
 #include "shared/joints/mass_split.h"
 #include "shared/joints/nncg.h"
 #include "shared/joints/prepare.h"
+#include "shared/joints/share_impulses.h"
 #include "shared/joints/solve.h"
 #ifndef TANDEM_LANES /* ITEM kernels take one item at a time */
 #include "shared/joints/avbd.h"

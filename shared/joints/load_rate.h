@@ -141,7 +141,7 @@ SHARED real smaller_of_sides(GLOBAL const float4 *body_shape, joint j)
 SHARED void weigh_joints_item(GLOBAL const Parameters *parameters, read_joints joints, read_turning_bodies bodies,
                               read_joint_axes axes, read_joint_impulses impulses, read_cached_joint_impulses cached,
                               GLOBAL const float4 *body_shape, GLOBAL const float4 *solver_velocity,
-                              GLOBAL uint *counts, uint starts, item_index i)
+                              GLOBAL uint *body_wish, GLOBAL uint *counts, uint starts, item_index i)
 {
   joint j = load_joint(parameters, joints, bodies, solver_velocity, i);
   joint_frames f = frames_of(parameters, j, joints, i);
@@ -159,7 +159,9 @@ SHARED void weigh_joints_item(GLOBAL const Parameters *parameters, read_joints j
     rate = maximum(rate, rate_of_limits(parameters, j, f, axes, impulses.axis,
                                         starts != 0u ? impulses.axis : cached.axis, growth, way, i));
   rate = maximum(starts != 0u ? LOAD_TO_COME * rate : rate, rate_of_curving(j, way));
-  note_rate(parameters, rate > R(0.0), rate, counts);
+  mask noted = note_rate(parameters, rate > R(0.0), rate, counts);
+  note_wishes(parameters, noted, rate, body_wish, choose(j.a.is_world, j.b.body, j.a.body),
+              choose(j.b.is_world, j.a.body, j.b.body));
 }
 
 #endif

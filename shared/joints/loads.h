@@ -42,6 +42,7 @@ SHARED void measure_joint_loads_item(GLOBAL const Parameters *parameters, read_j
                                      GLOBAL float4 *joint_load, GLOBAL uint *counts, uint substep, uint ends_step,
                                      uint i)
 {
+  if (leaves_out(parameters, joints, bodies, i)) return;
   joint j = load_joint(parameters, joints, bodies, solver_velocity, i);
   joint_frames f = frames_of(parameters, j, joints, i);
   joint_total total = total_of_joint(parameters, j, f, axes, impulses, i);

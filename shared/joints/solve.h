@@ -143,6 +143,7 @@ SHARED void warm_start_joints_item(GLOBAL const Parameters *parameters, read_joi
                                    read_joint_axes axes, read_joint_impulses impulses, GLOBAL float4 *solver_velocity,
                                    item_index i)
 {
+  if (leaves_out(parameters, joints, bodies, i)) return;
   joint j = load_joint(parameters, joints, bodies, solver_velocity, i);
   joint_frames f = frames_of(parameters, j, joints, i);
   joint_impulses p = load_joint_impulses(parameters, impulses.linear, impulses.angular, i);
@@ -167,6 +168,7 @@ SHARED void solve_joints_item(GLOBAL const Parameters *parameters, read_joints j
                               read_joint_axes axes, write_joint_impulses impulses, GLOBAL float4 *solver_velocity,
                               GLOBAL float4 *warm_start_impulse, uint pass, item_index i)
 {
+  if (leaves_out(parameters, joints, bodies, i)) return;
   joint j = load_joint(parameters, joints, bodies, solver_velocity, i);
   joint_frames f = frames_of(parameters, j, joints, i);
   joint_impulses p = load_joint_impulses(parameters, impulses.linear, impulses.angular, i);

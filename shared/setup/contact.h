@@ -15,6 +15,7 @@
 #include "shared/point_rows.h"
 #include "shared/records.h"
 #include "shared/setup/spin_slop.h"
+#include "shared/substep_classes.h"
 
 /* Below this sliding speed contacts count as sticking, and the static coefficient holds, m/s. */
 #define STICKING_SPEED R(0.01)
@@ -184,9 +185,9 @@ SHARED real friction_of(real packed) { return choose(packed < R(0.0), R(-1.0) - 
 /* How far a gap may close within the step, m. If gravity separates the two, it does so only later and does not count.
  * The gap closes along the symplectic Euler step, as a contact looks ahead (closing_beyond_mean of
  * narrowphase/time_of_impact.h). speed, pull: of b relative to a along the normal. */
-SHARED real farthest_closed(GLOBAL const Parameters *parameters, real speed, real pull)
+SHARED real farthest_closed(GLOBAL const Parameters *parameters, real substep, real speed, real pull)
 {
-  real fall = R(0.5) * (parameters->step * parameters->step + parameters->substep * parameters->substep);
+  real fall = R(0.5) * (parameters->step * parameters->step + substep * substep);
   return maximum(R(0.0) - pull, R(0.0)) * fall - speed * parameters->step;
 }
 
@@ -277,7 +278,7 @@ typedef struct {
   body_pair bodies;
   vec3 normal, gravity;
   surface between;
-  real size, pull;
+  real size, pull, substep;
   mask arms_stay;
   arm_shift arms_back;
 } contact_setup;
@@ -288,6 +289,15 @@ SHARED mask one_is_driven_ball(body_pair bodies, uint_lanes shape_a, uint_lanes 
 {
   return ((shape_a == bodies.a) & is_driven_ball(flags_a, bodies.velocity_a)) |
          ((shape_b == bodies.b) & is_driven_ball(flags_b, bodies.velocity_b));
+}
+
+/* s, of the pair's island. */
+SHARED real substep_of_pair(GLOBAL const Parameters *parameters, GLOBAL const uint *body_class, body_pair bodies)
+{
+  real few = parameters->substep;
+  if (!(parameters->few_share < R(1.0))) return few;
+  mask of_many = is_of_many(larger_class(load_uint(body_class, bodies.a), load_uint(body_class, bodies.b)));
+  return choose(of_many, few * parameters->few_share, few);
 }
 
 SHARED contact_setup begin_setup(GLOBAL const Parameters *parameters, GLOBAL const float4 *material,
@@ -303,6 +313,7 @@ SHARED contact_setup begin_setup(GLOBAL const Parameters *parameters, GLOBAL con
   if (HAS_FEATURE(parameters, SEVERAL_POINTS)) s.feature = load_uint(manifolds.feature, pair);
   s.bodies = load_body_pair(parameters, part_pairs.a, part_pairs.b, touching, pair);
   s.size = size_between(touching.shape, s.bodies.a, s.bodies.b);
+  s.substep = substep_of_pair(parameters, touching.substep_class, s.bodies);
   uint_lanes shape_a = shape_in_pair(parameters, part_pairs.leaf, pair, 0u, s.bodies.a),
              shape_b = shape_in_pair(parameters, part_pairs.leaf, pair, 1u, s.bodies.b);
   uint_lanes flags_a = load_uint(touching.flags, shape_a), flags_b = load_uint(touching.flags, shape_b);
@@ -312,7 +323,7 @@ SHARED contact_setup begin_setup(GLOBAL const Parameters *parameters, GLOBAL con
   s.gravity = gravity_at(parameters, touching.gravity, s.bodies.a);
   s.pull = relative_pull(s.gravity, touching.mass, s.bodies, s.normal);
   vec3 passing = subtract(s.bodies.velocity_b.linear, s.bodies.velocity_a.linear);
-  s.arms_stay = keeps_arms(manifold.w) | (length_of(passing) * parameters->substep > FOLLOWED_SHARE * s.size) |
+  s.arms_stay = keeps_arms(manifold.w) | (length_of(passing) * s.substep > FOLLOWED_SHARE * s.size) |
                 one_is_driven_ball(s.bodies, shape_a, shape_b, flags_a, flags_b);
   vec3 slid = scale(passing, moment_of(manifold.w)), none = make_vec3(R(0.0), R(0.0), R(0.0));
   s.bodies.offset = add(s.bodies.offset, slid);
@@ -381,7 +392,7 @@ SHARED void prepare_point(GLOBAL const Parameters *parameters, const contact_set
   points->target_velocity[k] =
       choose(used, target_velocity_of(parameters, s->between.restitution, speed, s->pull, point.w), (real)R(-1.0));
   points->deepest = choose(used, minimum(points->deepest, point.w), points->deepest);
-  points->near = points->near | (used & (point.w <= farthest_closed(parameters, speed, s->pull)));
+  points->near = points->near | (used & (point.w <= farthest_closed(parameters, s->substep, speed, s->pull)));
 }
 
 /* Marks bodies that a contact bears, because they do not fall. */

@@ -136,11 +136,13 @@ SHARED real rate_needed(GLOBAL const Parameters *parameters, const standing_pair
   return maximum(sinks, buckles);
 }
 
-SHARED void note_braced(GLOBAL const Parameters *parameters, mask wanted, uint_lanes layers, uint layers_at_start,
-                        real bearable, GLOBAL uint *counts)
+SHARED void note_braced(GLOBAL const Parameters *parameters, mask wanted, const standing_pair *p, uint_lanes layers,
+                        uint layers_at_start, real bearable, GLOBAL uint *body_wish, GLOBAL uint *counts)
 {
   uint_lanes at_start = layers_at_start, counted = choose(layers < at_start, layers, at_start);
-  mask noted = note_rate(parameters, wanted, rate_of_braced(parameters, counted, bearable), counts);
+  real rate = rate_of_braced(parameters, counted, bearable);
+  mask noted = note_rate(parameters, wanted, rate, counts);
+  note_wishes(parameters, noted, rate, body_wish, p->lower, p->upper);
   if (layers_at_start == INDEX_NONE && any_of(noted))
     atomic_max_if(noted, counts, (uint_lanes)(uint)COUNT_BRACED_LAYERS, layers);
 }
@@ -172,7 +174,7 @@ SHARED mask may_need_more(GLOBAL const Parameters *parameters, const standing_pa
  * of the pass before, or of the last step. standing: is 0 before. Returns the layers. */
 SHARED uint_lanes weigh(GLOBAL const Parameters *parameters, const standing_pair *p, mask bears, mask is_new,
                         real borne, real size, GLOBAL const uint *standing_above, GLOBAL uint *standing,
-                        GLOBAL uint *counts)
+                        GLOBAL uint *body_wish, GLOBAL uint *counts)
 {
   uint_lanes layers = load_uint(standing_above, p->upper * 2u) + 1u;
   real above = real_of_bits(load_uint(standing_above, p->upper * 2u + 1u));
@@ -180,29 +182,32 @@ SHARED uint_lanes weigh(GLOBAL const Parameters *parameters, const standing_pair
   load = choose(is_new, load, minimum(load, borne));
   real slop = bearable_way(parameters, size);
   real extent = choose(size > R(0.0), size, (real)R(0.5));
-  if (any_of(bears & may_need_more(parameters, p, load, layers, slop, extent)))
-    note_rate(parameters, bears, rate_needed(parameters, p, load, layers, slop, extent), counts);
+  if (any_of(bears & may_need_more(parameters, p, load, layers, slop, extent))) {
+    real rate = rate_needed(parameters, p, load, layers, slop, extent);
+    note_wishes(parameters, note_rate(parameters, bears, rate, counts), rate, body_wish, p->lower, p->upper);
+  }
   return layers;
 }
 
 /* layers_at_start: COUNT_BRACED_LAYERS of the first step of the world, INDEX_NONE in that step. */
-SHARED void weigh_standing_item(GLOBAL const Parameters *parameters, GLOBAL const float4 *body_shape,
-                                GLOBAL const float4 *solver_velocity, read_contacts contacts,
-                                read_loads_before loads_before, GLOBAL const memory_real *constraint_points,
-                                GLOBAL const uint *body_supports, GLOBAL const uint *standing_above,
-                                GLOBAL uint *standing, GLOBAL uint *counts, uint layers_at_start, item_index i)
+SHARED void weigh_standing_item(GLOBAL const Parameters *parameters, read_stacked_bodies stacked_bodies,
+                                read_contacts contacts, read_loads_before loads_before,
+                                GLOBAL const memory_real *constraint_points, GLOBAL const uint *standing_above,
+                                GLOBAL uint *standing, GLOBAL uint *body_wish, GLOBAL uint *counts,
+                                uint layers_at_start, item_index i)
 {
   if (!(parameters->gravity_length > R(0.0))) return;
-  standing_pair p = load_standing_pair(parameters, contacts, solver_velocity, i);
+  standing_pair p = load_standing_pair(parameters, contacts, stacked_bodies.velocity, i);
   real borne = force_borne(parameters, load_float4(loads_before.normal_impulse, i));
   mask bears = stands(parameters, &p, borne, constraint_points, planes_of(counts), i);
   if (!any_of(bears)) return;
   mask is_new = load_uint(loads_before.cached, load_uint(loads_before.pair, i)) == (uint_lanes)INDEX_NONE;
-  real size = size_between(body_shape, load_uint(contacts.a, i), load_uint(contacts.b, i));
-  uint_lanes layers = weigh(parameters, &p, bears, is_new, borne, size, standing_above, standing, counts);
-  mask is_braced = bears & (load_uint(body_supports, p.upper) > (uint_lanes)1u);
+  real size = size_between(stacked_bodies.shape, load_uint(contacts.a, i), load_uint(contacts.b, i));
+  uint_lanes layers = weigh(parameters, &p, bears, is_new, borne, size, standing_above, standing, body_wish, counts);
+  mask is_braced = bears & (load_uint(stacked_bodies.supports, p.upper) > (uint_lanes)1u);
   real extent = choose(size > R(0.0), size, (real)R(0.5));
-  note_braced(parameters, is_braced, layers, layers_at_start, bearable_share(parameters) * extent, counts);
+  note_braced(parameters, is_braced, &p, layers, layers_at_start, bearable_share(parameters) * extent, body_wish,
+              counts);
 }
 
 /* Set-up, and one pass of weigh_standing that needs no supports. Both read the same of a contact, and a step of four
@@ -233,7 +238,8 @@ SHARED void prepare_and_weigh_contacts_item(GLOBAL const Parameters *parameters,
   mask bears = stands(parameters, &p, borne, constraints.points, planes, choose(s.wanted, at, (uint_lanes)0u));
   if (!any_of(bears)) return;
   mask is_new = load_uint(cached_loads.of_pair, pair) == (uint_lanes)INDEX_NONE;
-  weigh(parameters, &p, bears, is_new, borne, s.size, cached_loads.standing, borne_bodies.standing, counts);
+  weigh(parameters, &p, bears, is_new, borne, s.size, cached_loads.standing, borne_bodies.standing, borne_bodies.wish,
+        counts);
 }
 
 #endif

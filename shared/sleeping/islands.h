@@ -5,14 +5,15 @@
  *
  * The label of an island is the lowest index of its bodies. Contacts and joints join dynamic bodies alone, because
  * whatever stands on one ground would otherwise be one island. Labels come from hooking and pointer jumping (Shiloach
- * and Vishkin, "An O(log n) parallel connectivity algorithm", 1982), in rounds of two kernels:
+ * and Vishkin, "An O(log n) parallel connectivity algorithm", 1982), in rounds of three kernels:
  *
  *   hook_islands   each contact sets the next label of the higher of its two labels to the lower one, by a minimum;
  *                  hook_joints does so for each joint, hook_couplings for the bodies of joints that are coupled, and
  *                  hook_links for the links of an articulation
  *   jump_islands   each body takes the next label of its next label
+ *   follow_labels  the next label of each body is no higher than its label, so that jumps become twice as long
  *
- * Minima of integers do not depend on order, and each kernel reads what the other one wrote, so every round has the
+ * Minima of integers do not depend on order, and each kernel reads what another one wrote, so every round has the
  * same bits on every backend. A round that changes nothing is the last; if there was none, the step runs again with
  * more rounds.
  *
@@ -95,6 +96,11 @@ SHARED void jump_islands_item(GLOBAL const uint *island_next, GLOBAL uint *islan
   if (jumped == label) return;
   island_label[i] = jumped;
   ATOMIC_MAX(counts + COUNT_ISLAND_ROUNDS, round + 1u);
+}
+
+SHARED void follow_labels_item(GLOBAL const uint *island_label, GLOBAL uint *island_next, uint i)
+{
+  if (island_label[i] < island_next[i]) island_next[i] = island_label[i];
 }
 
 /* rounds: the number that the host launched. */

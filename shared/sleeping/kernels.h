@@ -10,6 +10,7 @@
 #include "shared/sleeping/near_sleepers.h"
 #include "shared/sleeping/rest.h"
 #include "shared/sleeping/sleeper_table.h"
+#include "shared/sleeping/wishes.h"
 #endif
 
 #endif

@@ -225,7 +225,7 @@ SHARED void avbd_body(GLOBAL const Parameters *parameters, read_blocks blocks, r
                 i);
   }
   if (HAS_FEATURE(parameters, JOINTS)) {
-    read_turning_bodies bodies = {blocks.inertia, blocks.delta, blocks.orientation};
+    read_turning_bodies bodies = {blocks.inertia, blocks.delta, blocks.orientation, 0};
     for (uint k = lists.joint_start[body]; k < lists.joint_start[body + 1u]; ++k) {
       uint entry = lists.joint_entries[k];
       frame.side = (entry & 1u) != 0u ? R(1.0) : R(-1.0);

@@ -10,6 +10,7 @@
 #include "shared/solve/nncg.h"
 #include "shared/solve/pgs.h"
 #include "shared/solve/rolling.h"
+#include "shared/solve/share_impulses.h"
 #include "shared/solve/xpbd.h"
 
 #ifndef TANDEM_LANES /* ITEM and GROUP kernels take one item at a time */

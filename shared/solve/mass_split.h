@@ -312,11 +312,13 @@ SHARED void split_restitution_item(GLOBAL const Parameters *parameters, read_con
 
 /* Joins the parts of a body. trees: whether the sums of bodies with long lists have been computed. */
 SHARED void split_apply_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_constraint_start,
-                             GLOBAL const uint *body_constraint, GLOBAL const float4 *split_impulse,
-                             GLOBAL const float4 *split_partial, GLOBAL const float4 *solver_inertia,
-                             GLOBAL const uint *counts, GLOBAL float4 *solver_velocity, uint trees, item_index i)
+                             GLOBAL const uint *body_constraint, GLOBAL const uint *body_class,
+                             GLOBAL const float4 *split_impulse, GLOBAL const float4 *split_partial,
+                             GLOBAL const float4 *solver_inertia, GLOBAL const uint *counts,
+                             GLOBAL float4 *solver_velocity, uint trees, item_index i)
 {
   uint_lanes start = load_uint(body_constraint_start, i), entries = load_uint(body_constraint_start, i + 1u) - start;
+  if (moves_one_class(parameters)) entries = choose(is_moved(parameters, body_class, i), entries, (uint_lanes)0u);
   if (!any_of(entries > (uint_lanes)0u)) return;
   impulse_sum sum =
       sum_of_entries(body_constraint, split_impulse, split_partial, counts[CAPACITY_PAIRS], start, entries, trees);

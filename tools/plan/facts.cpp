@@ -35,7 +35,7 @@ const char *what_asks_for(Stage stage)
   case Stage::joints: return "joints";
   case Stage::articulations: return "articulations";
   case Stage::solve: return "--solver";
-  case Stage::sleeping: return "--sleep";
+  case Stage::sleeping: return "--sleep, --substeps auto";
   case Stage::events: return "events";
   case Stage::integrate: return "--solver, reports";
   case Stage::queries:

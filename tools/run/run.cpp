@@ -179,6 +179,7 @@ Json outcome_json(const Outcome &outcome, World &world, const Placement &placeme
           {"nonfinite", statistics.nonfinite},
           {"overflow", statistics.overflow},
           {"substeps", statistics.substeps},
+          {"bodies_with_more_substeps", statistics.bodies_with_more_substeps},
           {"joints", world.scene().joints.size()},
           {"joint_error",
            {{"max", outcome.joints.max_distance},
@@ -216,6 +217,13 @@ std::string moved_text(const Measurement &measurement)
                                        : "");
 }
 
+/* Of a world that chooses its substeps. */
+std::string who_took_more(const Statistics &statistics)
+{
+  if (statistics.bodies_with_more_substeps == 0) return "";
+  return fmt::format("; in the last one {} bodies took more than the fewest", statistics.bodies_with_more_substeps);
+}
+
 std::string facts_table(const Outcome &outcome, World &world, const Placement &placement)
 {
   const Statistics &statistics = outcome.statistics;
@@ -226,7 +234,7 @@ std::string facts_table(const Outcome &outcome, World &world, const Placement &p
     table.add({"islands", fmt::format("{} solved directly ({} solves stalled), {} pairs and joints in larger ones",
                                       statistics.direct_islands, statistics.direct_stalled, statistics.direct_left)});
   if (world.settings().substeps == automatic_substeps)
-    table.add({"substeps", fmt::format("{} in the next step", statistics.substeps)});
+    table.add({"substeps", fmt::format("{} in the next step{}", statistics.substeps, who_took_more(statistics))});
   table.add({"penetration", fmt::format("{:.3g} mm at most, {:.3g} mm on average", statistics.max_penetration * 1e3,
                                         statistics.mean_penetration * 1e3)});
   if (const size_t joints = world.scene().joints.size(); joints > 0)

@@ -75,7 +75,9 @@ struct Statistics {
   uint32_t nonfinite = 0;    /* bodies quarantined so far */
   uint32_t overflow = 0;     /* steps that ran again with larger buffers */
   uint32_t substeps = 0;     /* of the next step; with automatic_substeps it changes */
-  uint32_t asleep = 0;       /* bodies that sleep; without Settings::sleeping none do */
+  uint32_t bodies_with_more_substeps =
+      0;               /* with automatic_substeps: that the last step gave so many, others the fewest */
+  uint32_t asleep = 0; /* bodies that sleep; without Settings::sleeping none do */
   uint32_t sleeping_islands = 0;
   /* Of the last step, with the solver `direct` only: */
   uint32_t direct_islands = 0; /* islands that it solved */

@@ -45,7 +45,11 @@ public:
   uint32_t size_of(uint32_t edge) const;
   uint32_t bodies() const { return static_cast<uint32_t>(velocity.size() / 2); }
   bool moves(uint32_t body) const { return body != INDEX_NONE && velocity[2 * body].w > 0; }
-  in_double::read_turning_bodies turning_bodies() const { return {inertia.data(), delta.data(), orientation.data()}; }
+  /* The solver moves all classes of them. */
+  in_double::read_turning_bodies turning_bodies() const
+  {
+    return {inertia.data(), delta.data(), orientation.data(), nullptr};
+  }
   bool has_tensors() const { return HAS_FEATURE(&parameters, GYROSCOPIC); }
   double locks(uint32_t body) const { return has_tensors() ? inertia[2 * body + 1].z : 0; }
   vec3 free_part(uint32_t body, const vec3 &v) const;

@@ -65,7 +65,7 @@ void solve_couplings(StepLaunches &step, uint32_t pass) { solve_couplings(step, 
 
 void follow_joints(StepLaunches &step, uint32_t substep)
 {
-  const bool last = substep + 1 == step.settings().substeps;
+  const bool last = substep + 1 == step.substeps();
   if (step.has(FEATURE_JOINT_BOUNCES)) step.run(Kernel::follow_limits, {0});
   if (step.has(FEATURE_JOINT_BREAKS)) step.run(Kernel::measure_joint_loads, {substep, last});
 }

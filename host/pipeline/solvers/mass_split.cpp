@@ -91,7 +91,8 @@ void MassSplit::apply_restitution()
 
 void MassSplit::run_rows(Kernel kernel, const Values &values, const Slots &slots)
 {
-  step_.run_range(kernel, COLOR_START + first_color_, COUNT_CONSTRAINTS, values, slots);
+  if (first_color_ == COLOR_OVERFLOW) step_.run_overflow(kernel, values, slots);
+  else step_.run_range(kernel, COLOR_START + first_color_, COUNT_CONSTRAINTS, values, slots);
 }
 
 void MassSplit::sum_long_lists()

@@ -44,7 +44,7 @@ void launch_soft_step_substep(StepLaunches &step, MassSplit &overflow, uint32_t 
   overflow.warm_start();
   warm_start_rolling(step);
   solve_in_turns(step, overflow, passes_of(step, substep));
-  const bool last = substep + 1 == step.settings().substeps;
+  const bool last = substep + 1 == step.substeps();
   if (last && step.balances_trees()) step.run(Kernel::split_tree_balance);
   step.move_bodies();
   solve(step, overflow, last ? PASS_LAST : PASS_RELAXING);
@@ -58,20 +58,53 @@ void list_tree_contacts(StepLaunches &step)
   step.run(Kernel::order_tree_contacts, {step.has_worlds_with_overflow()});
 }
 
-} // namespace
-
-void launch_soft_step(StepLaunches &step)
+void launch_soft_step_substeps(StepLaunches &step)
 {
   MassSplit overflow = MassSplit::overflow_of(step);
   overflow.prepare();
   list_tree_contacts(step);
   begin_joints(step);
-  for (uint32_t substep = 0; substep < step.settings().substeps; ++substep)
-    launch_soft_step_substep(step, overflow, substep);
+  for (uint32_t substep = 0; substep < step.substeps(); ++substep) launch_soft_step_substep(step, overflow, substep);
   apply_restitution(step, overflow);
   if (step.has(FEATURE_RESTITUTION)) step.for_each_link_color(PASS_BOUNCING);
   step.balance_trees();
   bounce_joints(step);
+}
+
+/* The impulses of contacts stay those of one of the many substeps until their events are listed. */
+void share_impulses_of_joints(StepLaunches &step, bool back)
+{
+  if (step.has(FEATURE_JOINTS)) step.run(Kernel::share_joint_impulses, {back});
+  if (step.has(FEATURE_COUPLINGS)) step.run(Kernel::share_coupling_impulses, {back});
+}
+
+} // namespace
+
+void share_impulses_of_contacts(StepLaunches &step, bool back)
+{
+  step.run(Kernel::share_contact_impulses, {back});
+  if (step.has(FEATURE_ROLLING)) step.run(Kernel::share_rolling_impulses, {back});
+}
+
+/* The few are last, because kinematic bodies end where the last pass has them, and far from any load that is where they
+ * would be without one. */
+void launch_soft_step(StepLaunches &step)
+{
+  if (!step.plan().islands_apart) return launch_soft_step_substeps(step);
+  const bool many = step.plan().classes & MANY_SUBSTEPS, few = step.plan().classes & FEW_SUBSTEPS;
+  if (many) {
+    share_impulses_of_contacts(step, false);
+    share_impulses_of_joints(step, false);
+    step.take_class(MANY_SUBSTEPS);
+    launch_soft_step_substeps(step);
+    share_impulses_of_joints(step, true);
+  }
+  if (many && few) step.run(Kernel::rewind_kinematics);
+  if (few) {
+    step.take_class(FEW_SUBSTEPS);
+    launch_soft_step_substeps(step);
+  }
+  step.take_class(EVERY_CLASS);
 }
 
 } // namespace tandem

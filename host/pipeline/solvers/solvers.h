@@ -27,6 +27,8 @@ std::span<const SolverRow> solvers(); /* in the order of the enum */
 const SolverRow &row_of(Solver solver);
 
 void launch_soft_step(StepLaunches &step);
+/* Of islands of many substeps: between those of one of theirs and of one of the few (shared/substep_classes.h). */
+void share_impulses_of_contacts(StepLaunches &step, bool back);
 void launch_pgs(StepLaunches &step);
 void launch_nncg(StepLaunches &step);
 void launch_xpbd(StepLaunches &step);
