@@ -10,6 +10,7 @@
 
 #include "host/pipeline/primitives.h"
 #include "host/runtime/interface/features.h"
+#include "shared/articulations/joint_types.h"
 #include "shared/broadphase/sweep_limits.h"
 #include "shared/platform.h"
 #include "shared/sleeping/table_limits.h"
@@ -23,6 +24,13 @@ constexpr uint32_t most_points_of_pair = 4;
 size_t most_keys_sorted(const Sizes &sizes)
 {
   return 2 * std::max({size_t{sizes.bodies}, size_t{sizes.pairs}, (size_t{sizes.candidates} + 1) / 2});
+}
+
+/* As places_of_contacts in articulations/contact_rows.h has it. */
+size_t contacts_of_trees(const Sizes &sizes)
+{
+  const size_t contacts = std::min(size_t{sizes.pairs}, size_t{TREE_COLORS} * sizes.articulations);
+  return sizes.tree_freedoms == 0 ? 1 : std::max<size_t>(contacts, 1); /* without a table of paths, no tree has rows */
 }
 
 /* A capacity without a case here must not compile, whatever warnings are enabled. */
@@ -64,7 +72,8 @@ size_t items_of(Capacity capacity, const Sizes &sizes)
   case Capacity::MOVED_ROWS: return std::max(sizes.bodies, sizes.joints);
   case Capacity::SLEEPERS: return size_t{sizes.bodies} + MOST_UNSORTED_SLEEPERS;
   case Capacity::PAIRS: return sizes.pairs;
-  case Capacity::CONTACT_FREEDOMS: return size_t{sizes.pairs} * sizes.tree_freedoms;
+  case Capacity::TREE_CONTACTS: return contacts_of_trees(sizes);
+  case Capacity::TREE_CONTACT_FREEDOMS: return contacts_of_trees(sizes) * std::max(sizes.tree_freedoms, 1u);
   case Capacity::EVENTS: return 2 * size_t{sizes.pairs}; /* at most the pairs of this step and of the last */
   case Capacity::PAIRS_PLUS_ONE: return size_t{sizes.pairs} + 1;
   case Capacity::CELLS: return size_t{sizes.cells} + 1;
@@ -97,8 +106,8 @@ void check_size(Buffer buffer, const Sizes &sizes)
   const uint64_t elements = uint64_t{bytes_of(buffer, sizes)} / size_of(row_of(buffer).element),
                  most = uint64_t{1} << 32;
   if (elements > most)
-    throw InputError(fmt::format("buffer {} would have {} elements, and kernels can number {}: fewer bodies, hulls or "
-                                 "cells of cube maps are needed",
+    throw InputError(fmt::format("buffer {} would have {} elements, and kernels can number {}: fewer bodies, hulls, "
+                                 "cells of cube maps or articulations are needed",
                                  row_of(buffer).name, elements, most));
 }
 

@@ -47,9 +47,11 @@ bool is_read_after_steps(Buffer buffer)
 /* The others are small, or of no step. */
 bool grows_with_scene(Capacity capacity)
 {
-  constexpr Capacity growing[] = {Capacity::BODIES,         Capacity::BODIES_PLUS_ONE, Capacity::PAIRS,
-                                  Capacity::PAIRS_PLUS_ONE, Capacity::EVENTS,          Capacity::CELLS,
-                                  Capacity::SORTABLE,       Capacity::CANDIDATE_PAIRS};
+  constexpr Capacity growing[] = {Capacity::BODIES,        Capacity::BODIES_PLUS_ONE,
+                                  Capacity::PAIRS,         Capacity::PAIRS_PLUS_ONE,
+                                  Capacity::EVENTS,        Capacity::CELLS,
+                                  Capacity::SORTABLE,      Capacity::CANDIDATE_PAIRS,
+                                  Capacity::TREE_CONTACTS, Capacity::TREE_CONTACT_FREEDOMS};
   return std::find(std::begin(growing), std::end(growing), capacity) != std::end(growing);
 }
 

@@ -112,9 +112,12 @@ uint32_t worlds_of_group(uint32_t worlds, uint32_t bodies, uint32_t threads)
 {
   if (const uint32_t wanted = worlds_of_group_of_tests()) return std::min(wanted, worlds);
   const uint32_t few = std::max(1u, bodies_of_group / std::max(bodies, 1u));
-  const uint32_t for_cache = few < worlds_beside ? few : rounded(few, worlds_beside);
+  const uint32_t for_cache =
+      few < worlds_beside && threads > 1 ? few : std::max(rounded(few, worlds_beside), worlds_beside);
   const uint32_t for_threads = (worlds + groups_of_thread * threads - 1) / (groups_of_thread * threads);
-  const uint32_t each = threads == 1 ? for_cache : std::min(for_cache, rounded_up(for_threads, worlds_beside));
+  const uint32_t whole = rounded_up(for_threads, worlds_beside),
+                 shared = worlds / whole >= threads ? whole : rounded_up(for_threads, worlds_beside / 2);
+  const uint32_t each = threads == 1 ? for_cache : std::min(for_cache, shared);
   return worlds / each >= threads && worlds > each ? each : worlds;
 }
 

@@ -16,8 +16,7 @@
 #include "shared/batching/nodes.h"
 #include "shared/solve/pass.h"
 
-/* Records of tree_contact and of tree_colors (tree_contacts.h). */
-#define TREE_COLORS 64u
+/* Records of tree_colors (tree_contacts.h); those of tree_contact have TREE_COLORS. */
 #define TREE_COLOR_WORDS 4u
 /* The first word of tree_colors while contacts are solved: whether the tree has its table of paths where it stands,
  * from this pass or from one before. */

@@ -19,6 +19,9 @@
  *                                        2 d, of both directions of friction and of the twist in plane 2 d + 1
  *     contact_term       planes          CONTACT_TERM_: speeds, masses, separations, responses
  *
+ * The place of a contact in a plane is its own number, or its number in the list of its tree where all lists together
+ * are shorter than the pairs: a robot among a million boxes needs no rows for these.
+ *
  * Two links of one tree push each other through it. For effective masses they seem to answer more than the tree lets
  * them, by half of what the freedoms that move both would move each of them by: two links which the tree holds rigidly
  * to each other, and which overlap, then push no more than a spring does.
@@ -187,32 +190,60 @@ SHARED projected_rows projection_if(mask wanted, projected_rows p)
 }
 
 /* --- memory --------------------------------------------------------------------------------------------------- */
-SHARED void store_term_if(mask wanted, write_contact_freedoms f, uint stride, uint term, item_index i, vec4 value)
+/* stride: of planes. by_tree: whether contacts have the places of lists. */
+typedef struct {
+  uint stride, by_tree;
+} contact_places;
+
+SHARED contact_places places_of_contacts(GLOBAL const uint *counts)
 {
-  store_float4_if(wanted, f.term, stride * term + i, value);
+  uint pairs = counts[CAPACITY_PAIRS], trees = counts[COUNT_ARTICULATIONS];
+  uint by_tree = trees <= pairs / TREE_COLORS ? 1u : 0u;
+  contact_places p = {by_tree ? TREE_COLORS * trees : pairs, by_tree};
+  return p;
 }
 
-SHARED void store_projection_if(mask wanted, write_contact_freedoms f, uint stride, uint freedom, item_index i,
+/* The place of contact i in the list of its tree; lists are in the order of contacts. */
+SHARED uint_lanes place_in_list(write_link_states states, uint_lanes tree, uint_lanes i)
+{
+  uint_lanes first = TREE_COLORS * tree, low = (uint_lanes)0u;
+  uint_lanes listed = load_uint(states.colors, TREE_COLOR_WORDS * tree + 3u);
+  for (uint step = TREE_COLORS / 2u; step > 0u; step /= 2u) {
+    uint_lanes next = low + (uint_lanes)step;
+    mask within = next < listed;
+    uint_lanes there = load_uint(states.contact, first + choose(within, next, (uint_lanes)0u));
+    low = choose(within & (there <= i), next, low);
+  }
+  return first + low;
+}
+
+SHARED void store_term_if(mask wanted, write_contact_freedoms f, uint stride, uint term, uint_lanes at, vec4 value)
+{
+  store_listed_row_if(wanted, f.term, at + (uint_lanes)(stride * term), value);
+}
+
+SHARED void store_projection_if(mask wanted, write_contact_freedoms f, uint stride, uint freedom, uint_lanes at,
                                 projected_rows p)
 {
-  store_float4_if(wanted, f.row, stride * (2u * freedom) + i, p.normals);
-  store_float4_if(wanted, f.row, stride * (2u * freedom + 1u) + i, p.others);
+  uint_lanes row = at + (uint_lanes)(stride * (2u * freedom));
+  store_listed_row_if(wanted, f.row, row, p.normals);
+  store_listed_row_if(wanted, f.row, row + (uint_lanes)stride, p.others);
 }
 
 /* soft: with what masses see besides. */
-SHARED void store_responses_if(mask wanted, write_contact_freedoms f, uint stride, item_index i,
+SHARED void store_responses_if(mask wanted, write_contact_freedoms f, uint stride, uint_lanes at,
                                const contact_response *r, const contact_response *soft)
 {
   vec4 s = soft->normals.squares, last = r->normals.last_coupled, soft_last = soft->normals.last_coupled;
-  store_term_if(wanted, f, stride, CONTACT_TERM_MASSES, i,
+  store_term_if(wanted, f, stride, CONTACT_TERM_MASSES, at,
                 make_vec4(inverse_or_zero(s.x), inverse_or_zero(s.y), inverse_or_zero(s.z), inverse_or_zero(s.w)));
   store_term_if(
-      wanted, f, stride, CONTACT_TERM_FRICTION, i,
+      wanted, f, stride, CONTACT_TERM_FRICTION, at,
       make_vec4(r->twisted.x, r->twisted.y, inverse_or_zero(soft->twisted.z), mass_of_sliding(soft->sliding)));
-  store_term_if(wanted, f, stride, CONTACT_TERM_SQUARES, i, r->normals.squares);
-  store_term_if(wanted, f, stride, CONTACT_TERM_COUPLED, i, r->normals.coupled);
-  store_term_if(wanted, f, stride, CONTACT_TERM_SOFT_COUPLED, i, soft->normals.coupled);
-  store_term_if(wanted, f, stride, CONTACT_TERM_LAST_COUPLED, i, make_vec4(last.x, last.y, soft_last.x, soft_last.y));
+  store_term_if(wanted, f, stride, CONTACT_TERM_SQUARES, at, r->normals.squares);
+  store_term_if(wanted, f, stride, CONTACT_TERM_COUPLED, at, r->normals.coupled);
+  store_term_if(wanted, f, stride, CONTACT_TERM_SOFT_COUPLED, at, soft->normals.coupled);
+  store_term_if(wanted, f, stride, CONTACT_TERM_LAST_COUPLED, at, make_vec4(last.x, last.y, soft_last.x, soft_last.y));
 }
 
 /* --- the kernel ----------------------------------------------------------------------------------------------- */
@@ -250,17 +281,17 @@ SHARED contact_rows load_contact_rows(const link_contact *c, read_patches patche
 #define COMPLIANCE_WITHIN R(0.5)
 
 SHARED void project_freedoms_if(mask wanted, const articulation *t, const link_contact *c, const contact_rows *rows,
-                                write_contact_freedoms f, uint stride, item_index i)
+                                write_contact_freedoms f, uint stride, uint_lanes at)
 {
   contact_response response = no_response(), softness = no_response();
   seen_paths p = paths_of_contact(t, c);
   freedom_set moved = freedoms_of_either(&p.seen, &p.other);
-  store_uint_if(wanted, f.freedom, i, moved.low);
-  store_uint_if(wanted, f.freedom, stride + i, moved.high);
+  store_uint_if(wanted, f.freedom, at, moved.low);
+  store_uint_if(wanted, f.freedom, at + (uint_lanes)stride, moved.high);
   for (freedoms_left left = freedoms_of_any(moved); any_left(&left);) {
     uint freedom = next_freedom(&left);
     moved_rows m = rows_moved_by(t, c, rows, &p, freedom);
-    store_projection_if(wanted & m.moves, f, stride, freedom, i, m.all);
+    store_projection_if(wanted & m.moves, f, stride, freedom, at, m.all);
     add_response(&response, m.all, R(1.0));
     if (any_of(m.moves_both)) {
       add_response(&softness, projection_if(m.moves_both, m.seen), COMPLIANCE_WITHIN);
@@ -268,7 +299,7 @@ SHARED void project_freedoms_if(mask wanted, const articulation *t, const link_c
     }
   }
   contact_response soft = sum_of_responses(&response, &softness);
-  store_responses_if(wanted, f, stride, i, &response, &soft);
+  store_responses_if(wanted, f, stride, at, &response, &soft);
 }
 
 /* An item is a contact, of a tree that has its contacts for itself and stands where its table of paths was made. In a
@@ -287,19 +318,22 @@ SHARED void project_tree_contacts_item(GLOBAL const Parameters *parameters, read
   wanted = wanted & has_links(&t) & !is_mixed(states, tree);
   if (!any_of(wanted)) return;
   point_planes planes = planes_of(counts);
+  contact_places places = places_of_contacts(counts);
+  uint_lanes at = i;
+  if (places.by_tree) at = choose(wanted, place_in_list(states, tree, at), (uint_lanes)0u);
   link_contact c = load_tree_contact(wanted, parameters, &t, contacts, patches, bodies, links, solver_velocity, i);
   see_velocities(&c);
   vec4 separations;
   contact_rows rows = load_contact_rows(&c, patches, planes, i, &separations);
   projected_rows speeds = project_rows(&rows, c.body.velocity);
   real fixed = choose(c.a.is_link & c.b.is_link, (real)R(0.0), (real)R(1.0));
-  store_term_if(wanted, freedoms, planes.stride, CONTACT_TERM_NORMAL_SPEEDS, i, speeds.normals);
-  store_term_if(wanted, freedoms, planes.stride, CONTACT_TERM_SPEEDS, i,
+  store_term_if(wanted, freedoms, places.stride, CONTACT_TERM_NORMAL_SPEEDS, at, speeds.normals);
+  store_term_if(wanted, freedoms, places.stride, CONTACT_TERM_SPEEDS, at,
                 make_vec4(speeds.others.x, speeds.others.y, speeds.others.z, fixed));
   mask fresh = wanted & (load_uint(states.colors, TREE_COLOR_WORDS * tree) == (uint_lanes)(uint)PATHS_ARE_NEW);
   if (!any_of(fresh)) return;
-  store_term_if(fresh, freedoms, planes.stride, CONTACT_TERM_SEPARATIONS, i, separations);
-  project_freedoms_if(fresh, &t, &c, &rows, freedoms, planes.stride, i);
+  store_term_if(fresh, freedoms, places.stride, CONTACT_TERM_SEPARATIONS, at, separations);
+  project_freedoms_if(fresh, &t, &c, &rows, freedoms, places.stride, at);
 }
 
 #endif

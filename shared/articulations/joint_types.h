@@ -19,6 +19,8 @@ enum { TREE_JOINT_FIXED, TREE_JOINT_HINGE, TREE_JOINT_SLIDER, TREE_JOINT_BALL, T
 /* So many trees of one shape lie beside each other, which are the work-items of a warp; others lie alone. A table has
  * room for all of them even if the last ones are missing: host/scene/tree_places.h. */
 #define TREES_BESIDE 32u
+/* The most contacts that a tree may have for itself (tree_contacts.h). */
+#define TREE_COLORS 64u
 
 /* The records of a link, in rows of four floats. */
 enum {

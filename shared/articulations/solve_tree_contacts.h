@@ -12,10 +12,11 @@
 
 #include "shared/articulations/contact_rows.h"
 
-/* Where a contact is solved, and its rows, read once; freedom: those that move the contact of any lane. */
+/* A contact, where its rows stand (contact_places), and these, read once. freedom: those that move the contact of any
+ * lane. */
 typedef struct {
   mask wanted;
-  uint_lanes at;
+  uint_lanes i, at;
   uint stride, rows;
   freedom_set moved;
   uint freedom[TREE_FREEDOMS];
@@ -47,10 +48,11 @@ SHARED void load_projections(projected_contact *c, read_contact_freedoms f)
   }
 }
 
-SHARED void load_projected_contact(mask wanted, read_contact_freedoms f, uint stride, uint_lanes at,
+SHARED void load_projected_contact(mask wanted, read_contact_freedoms f, uint stride, uint_lanes i, uint_lanes at,
                                    projected_contact *c)
 {
   c->wanted = wanted;
+  c->i = i;
   c->at = at;
   c->stride = stride;
   c->rows = 0u;
@@ -160,24 +162,27 @@ SHARED tree_normals load_tree_normals(const projected_contact *c, read_contact_f
   return s;
 }
 
-/* How fast impulses along the normals move their points. */
+/* How fast impulses along the normals move their points. Sums are such that the mirrored points of a mirrored contact
+ * have the same bits, here and below. */
 SHARED vec4 speeds_of_impulses(const tree_normals *s, vec4 p)
 {
   vec4 k = s->coupled;
   real yw = s->last_coupled.x, zw = s->last_coupled.y;
   return make_vec4(s->squares.x * p.x + (k.x * p.y + (k.y * p.z + k.z * p.w)),
                    s->squares.y * p.y + (k.x * p.x + (k.w * p.z + yw * p.w)),
-                   s->squares.z * p.z + (k.y * p.x + (k.w * p.y + zw * p.w)),
-                   s->squares.w * p.w + (k.z * p.x + (yw * p.y + zw * p.z)));
+                   s->squares.z * p.z + (zw * p.w + (k.y * p.x + k.w * p.y)),
+                   s->squares.w * p.w + (zw * p.z + (k.z * p.x + yw * p.y)));
 }
 
 /* Twice the energy of impulses along the normals, as masses see it. answers: of each point alone. */
 SHARED real energy_of_impulses(const tree_normals *s, vec4 answers, vec4 p)
 {
   vec4 k = s->soft_coupled;
-  real alone = (answers.x * p.x) * p.x + (answers.y * p.y) * p.y + (answers.z * p.z) * p.z + (answers.w * p.w) * p.w;
-  real coupled = k.x * (p.x * p.y) + k.y * (p.x * p.z) + k.z * (p.x * p.w) + k.w * (p.y * p.z) +
-                 s->last_coupled.z * (p.y * p.w) + s->last_coupled.w * (p.z * p.w);
+  real yw = s->last_coupled.z, zw = s->last_coupled.w;
+  real alone =
+      ((answers.x * p.x) * p.x + (answers.y * p.y) * p.y) + ((answers.z * p.z) * p.z + (answers.w * p.w) * p.w);
+  real coupled = (k.x * (p.x * p.y) + zw * (p.z * p.w)) +
+                 ((k.y * (p.x * p.z) + yw * (p.y * p.w)) + (k.z * (p.x * p.w) + k.w * (p.y * p.z)));
   return alone + R(2.0) * coupled;
 }
 
@@ -248,39 +253,40 @@ SHARED void push_by_normals_if(mask wanted, const projected_contact *c, tree_fre
   *pushed = *pushed | pushes;
 }
 
+/* pairs: the stride of planes of contacts. */
 SHARED void solve_projected_contact(GLOBAL const Parameters *parameters, const projected_contact *c,
                                     read_contacts contacts, read_contact_freedoms f,
                                     GLOBAL const memory_real *constraint_slop, write_contact_impulses impulses,
-                                    tree_freedoms *z, uint biased, mask *pushed)
+                                    tree_freedoms *z, uint pairs, uint biased, mask *pushed)
 {
-  real packed = load_float4(contacts.normal, c->at).w, coefficient = friction_of(packed);
-  vec4 before = load_float4(impulses.normal, c->at), friction = load_friction(parameters, impulses.friction, c->at);
+  real packed = load_float4(contacts.normal, c->i).w, coefficient = friction_of(packed);
+  vec4 before = load_float4(impulses.normal, c->i), friction = load_friction(parameters, impulses.friction, c->i);
   mask rough = c->wanted & (coefficient > R(0.0));
   if (!HAS_FEATURE(parameters, FRICTION)) rough = rough & !rough;
   real limit = coefficient * ((before.x + before.y) + (before.z + before.w));
   friction = solve_tree_friction_if(rough, c, f, z, friction, limit, pushed);
-  if (HAS_FEATURE(parameters, FRICTION)) store_float4_if(rough, impulses.friction, c->at, friction);
+  if (HAS_FEATURE(parameters, FRICTION)) store_float4_if(rough, impulses.friction, c->i, friction);
   tree_normals s = load_tree_normals(c, f, z, before);
   softness soft = softness_against(parameters, load_term(c, f, CONTACT_TERM_SPEEDS).w > R(0.0));
-  solve_rounds_of_tree_normals(parameters, &s, soft, load_real(constraint_slop, c->at), packed < R(0.0), biased);
-  store_float4_if(c->wanted, impulses.normal, c->at, s.impulse);
-  keep_highest_impulses_if(c->wanted, parameters, impulses.restitution, c->stride, s.impulse, c->at);
+  solve_rounds_of_tree_normals(parameters, &s, soft, load_real(constraint_slop, c->i), packed < R(0.0), biased);
+  store_float4_if(c->wanted, impulses.normal, c->i, s.impulse);
+  keep_highest_impulses_if(c->wanted, parameters, impulses.restitution, pairs, s.impulse, c->i);
   push_by_normals_if(c->wanted, c, z, before, s.impulse, pushed);
 }
 
 /* Contacts of which no point bounces stay as they are. */
 SHARED void bounce_projected_contact(const projected_contact *c, read_contact_freedoms f,
-                                     write_contact_impulses impulses, tree_freedoms *z, mask *pushed)
+                                     write_contact_impulses impulses, tree_freedoms *z, uint pairs, mask *pushed)
 {
-  vec4 target_velocity = load_float4(impulses.restitution, c->at),
-       highest = load_float4(impulses.restitution, c->at + c->stride);
+  vec4 target_velocity = load_float4(impulses.restitution, c->i),
+       highest = load_float4(impulses.restitution, c->i + pairs);
   mask bounces = c->wanted & ((target_velocity.x >= R(0.0)) | (target_velocity.y >= R(0.0)) |
                               (target_velocity.z >= R(0.0)) | (target_velocity.w >= R(0.0)));
   if (!any_of(bounces)) return;
-  vec4 before = load_float4(impulses.normal, c->at);
+  vec4 before = load_float4(impulses.normal, c->i);
   tree_normals s = load_tree_normals(c, f, z, before);
   for (uint round = 0; round < RESTITUTION_ROUNDS; ++round) bounce_tree_normals(&s, target_velocity, highest);
-  store_float4_if(bounces, impulses.normal, c->at, s.impulse);
+  store_float4_if(bounces, impulses.normal, c->i, s.impulse);
   push_by_normals_if(bounces, c, z, before, s.impulse, pushed);
 }
 
@@ -302,17 +308,19 @@ SHARED void solve_tree_contacts_item(GLOBAL const Parameters *parameters, read_c
   articulation t = articulation_in_pass(links, states, tree, pass);
   listed = choose(has_links(&t), listed, (uint_lanes)0u);
   mask touches = listed > 0u, pushed = touches & !touches;
-  uint stride = planes_of(counts).stride, biased = kind_of_pass(pass) == (uint)PASS_BIASED ? 1u : 0u;
+  uint pairs = planes_of(counts).stride, biased = kind_of_pass(pass) == (uint)PASS_BIASED ? 1u : 0u;
+  contact_places places = places_of_contacts(counts);
   tree_freedoms z;
   begin_freedoms(&t, &z);
   for (uint n = 0u; any_of(n < listed); ++n) {
     mask wanted = n < listed;
-    uint_lanes at = choose(wanted, load_uint(states.contact, TREE_COLORS * tree + n), (uint_lanes)0u);
+    uint_lanes place = TREE_COLORS * tree + n, at = choose(wanted, load_uint(states.contact, place), (uint_lanes)0u);
     projected_contact c;
-    load_projected_contact(wanted, freedoms, stride, at, &c);
-    if (pass == (uint)PASS_BOUNCING) bounce_projected_contact(&c, freedoms, contact_impulses, &z, &pushed);
+    load_projected_contact(wanted, freedoms, places.stride, at,
+                           places.by_tree ? choose(wanted, place, (uint_lanes)0u) : at, &c);
+    if (pass == (uint)PASS_BOUNCING) bounce_projected_contact(&c, freedoms, contact_impulses, &z, pairs, &pushed);
     else
-      solve_projected_contact(parameters, &c, contacts, freedoms, constraint_slop, contact_impulses, &z, biased,
+      solve_projected_contact(parameters, &c, contacts, freedoms, constraint_slop, contact_impulses, &z, pairs, biased,
                               &pushed);
   }
   end_moving_if(touches, &t, &z, pushed);

@@ -67,6 +67,8 @@ bool grows_with_pairs(Buffer buffer)
   case Capacity::PAIRS_PLUS_ONE:
   case Capacity::EVENTS:
   case Capacity::SORTABLE:
+  case Capacity::TREE_CONTACTS:
+  case Capacity::TREE_CONTACT_FREEDOMS:
   case Capacity::CANDIDATE_PAIRS: return true;
   default: return false;
   }
