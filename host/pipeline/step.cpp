@@ -265,7 +265,7 @@ private:
   void forget_wishes()
   {
     if (plan().forgets_wishes) run_range(Kernel::fill, COUNT_ZERO, COUNT_BODIES, {0}, {Buffer::body_wish});
-    if (plan().islands_apart || plan().substeps.wishes_left == 0) return;
+    if (plan().islands_apart || plan().wishes_left == 0) return;
     run_range(Kernel::fill, COUNT_ZERO, COUNT_BODIES, {0}, {Buffer::previous_cached_wish});
   }
 

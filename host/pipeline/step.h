@@ -51,6 +51,7 @@ struct StepPlan {
   SubstepChoice substeps;                    /* if the world chooses them itself */
   bool islands_apart = false;                /* those that want more than the fewest substeps take more, others not */
   uint32_t classes = 0;                      /* of bodies that the solver moves then: shared/substep_classes.h */
+  uint32_t wishes_left = sides_of_wishes;    /* of which steps of islands apart may have left some */
   bool forgets_wishes = true;                /* of an attempt that knew not all contacts, or other bodies */
   uint32_t hits = 0;                         /* that a cast has left on the device for kernels of modules */
   std::array<uint32_t, COUNT_TOTAL> known{}; /* counts after the last step */

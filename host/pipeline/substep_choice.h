@@ -23,7 +23,6 @@ struct SubstepChoice {
   uint32_t of_cache = 0;        /* of the step that left the impulses in the cache */
   uint32_t calm_steps = 0;      /* that needed no more than half of them */
   uint32_t layers_at_start = 0; /* COUNT_BRACED_LAYERS of the first step */
-  uint32_t wishes_left = 0;     /* sides of cached_wish that a step of islands apart may have written */
 };
 
 /* More than 4 and 64 if contacts are asked for that are stiffer than these allow. */

@@ -174,7 +174,7 @@ void World::Implementation::record_kernels()
   all.substeps.starts = all.substeps.automatic;
   all.islands_apart = may_part_islands();
   all.classes = all.islands_apart ? FEW_SUBSTEPS | MANY_SUBSTEPS : 0;
-  all.substeps.wishes_left = 0;
+  all.wishes_left = 0;
   all.rounds = BATCH_ROUNDS * COLOR_LIMIT; /* the most rounds after which a batcher launches another kernel */
   all.known[COUNT_PAIRS] = all.known[COUNT_CONSTRAINTS] = most_pairs; /* many pairs, which touch */
   all.known[COUNT_ARTICULATIONS] = static_cast<uint32_t>(scene.articulations.size());

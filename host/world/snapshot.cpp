@@ -49,8 +49,8 @@ template <Is<SleepingIsland> T, class Visit> auto visit_fields(T &record, const 
 
 template <Is<SubstepChoice> T, class Visit> auto visit_fields(T &record, const Visit &visit)
 {
-  auto &[automatic, starts, now, of_cache, calm_steps, layers_at_start, wishes_left] = record;
-  return visit(automatic, starts, now, of_cache, calm_steps, layers_at_start, wishes_left);
+  auto &[automatic, starts, now, of_cache, calm_steps, layers_at_start] = record;
+  return visit(automatic, starts, now, of_cache, calm_steps, layers_at_start);
 }
 
 template <Is<SleepEvent> T, class Visit> auto visit_fields(T &record, const Visit &visit)
@@ -125,9 +125,6 @@ void check_substeps(const ByteReader &reader, const SnapshotContents &contents)
   if (choice.automatic != first.automatic || !is_allowed(choice.now) || !is_allowed(choice.of_cache))
     reader.fail(fmt::format("{} substeps after {}, of a world that takes {} to {}", choice.now, choice.of_cache,
                             first.now, most));
-  if (choice.wishes_left > sides_of_wishes)
-    reader.fail(fmt::format("{} sides of a buffer hold wishes for substeps, and {} is the most", choice.wishes_left,
-                            sides_of_wishes));
 }
 
 Specialisation get_special(ByteReader &reader, const Scene &scene)

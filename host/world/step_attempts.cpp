@@ -221,7 +221,7 @@ void World::Implementation::undo(const Attempt &before) noexcept
   plan = before.plan;
   plan.apart = false; /* an attempt may have left lists and colours of other pairs */
   plan.forgets_wishes = true;
-  plan.substeps.wishes_left = sides_of_wishes;
+  plan.wishes_left = sides_of_wishes;
   if (plan.substeps.automatic) told_substeps = {}; /* it may have left the parameters of some islands */
   set_capacity(grown);
   plan.sleepers = !sleepers.empty();
@@ -342,10 +342,10 @@ void World::Implementation::settle_islands() noexcept
   if (plan.islands_apart) {
     plan.classes = classes_needed();
     choice.of_cache = fewest_substeps(settings);
-    choice.wishes_left = sides_of_wishes;
+    plan.wishes_left = sides_of_wishes;
     return;
   }
-  if (choice.wishes_left > 0) --choice.wishes_left;
+  if (plan.wishes_left > 0) --plan.wishes_left;
   const SubstepChoice few = choice_of_few(choice, settings);
   if (plan.known[COUNT_LOAD_RATE] > highest_load_rate(few, settings)) plan.forgets_wishes = true;
 }
