@@ -190,7 +190,8 @@ SHARED projected_rows projection_if(mask wanted, projected_rows p)
 }
 
 /* --- memory --------------------------------------------------------------------------------------------------- */
-/* stride: of planes. by_tree: whether contacts have the places of lists. */
+/* stride: of planes. by_tree: whether contacts have the places of lists, of which the n-th contacts of neighbouring
+ * trees stand beside each other. */
 typedef struct {
   uint stride, by_tree;
 } contact_places;
@@ -203,8 +204,13 @@ SHARED contact_places places_of_contacts(GLOBAL const uint *counts)
   return p;
 }
 
-/* The place of contact i in the list of its tree; lists are in the order of contacts. */
-SHARED uint_lanes place_in_list(write_link_states states, uint_lanes tree, uint_lanes i)
+SHARED uint_lanes place_by_tree(contact_places p, uint_lanes tree, uint_lanes n)
+{
+  return n * (uint_lanes)(p.stride / TREE_COLORS) + tree;
+}
+
+/* The number of contact i in the list of its tree; lists are in the order of contacts. */
+SHARED uint_lanes number_in_list(write_link_states states, uint_lanes tree, uint_lanes i)
 {
   uint_lanes first = TREE_COLORS * tree, low = (uint_lanes)0u;
   uint_lanes listed = load_uint(states.colors, TREE_COLOR_WORDS * tree + 3u);
@@ -214,7 +220,7 @@ SHARED uint_lanes place_in_list(write_link_states states, uint_lanes tree, uint_
     uint_lanes there = load_uint(states.contact, first + choose(within, next, (uint_lanes)0u));
     low = choose(within & (there <= i), next, low);
   }
-  return first + low;
+  return low;
 }
 
 SHARED void store_term_if(mask wanted, write_contact_freedoms f, uint stride, uint term, uint_lanes at, vec4 value)
@@ -320,7 +326,8 @@ SHARED void project_tree_contacts_item(GLOBAL const Parameters *parameters, read
   point_planes planes = planes_of(counts);
   contact_places places = places_of_contacts(counts);
   uint_lanes at = i;
-  if (places.by_tree) at = choose(wanted, place_in_list(states, tree, at), (uint_lanes)0u);
+  if (places.by_tree)
+    at = choose(wanted, place_by_tree(places, tree, number_in_list(states, tree, at)), (uint_lanes)0u);
   link_contact c = load_tree_contact(wanted, parameters, &t, contacts, patches, bodies, links, solver_velocity, i);
   see_velocities(&c);
   vec4 separations;

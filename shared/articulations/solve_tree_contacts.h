@@ -314,10 +314,10 @@ SHARED void solve_tree_contacts_item(GLOBAL const Parameters *parameters, read_c
   begin_freedoms(&t, &z);
   for (uint n = 0u; any_of(n < listed); ++n) {
     mask wanted = n < listed;
-    uint_lanes place = TREE_COLORS * tree + n, at = choose(wanted, load_uint(states.contact, place), (uint_lanes)0u);
+    uint_lanes at = choose(wanted, load_uint(states.contact, TREE_COLORS * tree + n), (uint_lanes)0u), place = at;
+    if (places.by_tree) place = place_by_tree(places, tree, (uint_lanes)n);
     projected_contact c;
-    load_projected_contact(wanted, freedoms, places.stride, at,
-                           places.by_tree ? choose(wanted, place, (uint_lanes)0u) : at, &c);
+    load_projected_contact(wanted, freedoms, places.stride, at, place, &c);
     if (pass == (uint)PASS_BOUNCING) bounce_projected_contact(&c, freedoms, contact_impulses, &z, pairs, &pushed);
     else
       solve_projected_contact(parameters, &c, contacts, freedoms, constraint_slop, contact_impulses, &z, pairs, biased,

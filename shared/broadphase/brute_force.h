@@ -11,19 +11,19 @@
 
 #define MOST_MARKED 32u
 
-/* The bodies of a world that are marked, as bits: those before `a` whose boxes overlap its own. Nothing branches on a
- * test, because links of a robot overlap about as often as not. */
+/* The bodies of a small world before `a` whose boxes overlap its own, as bits. Nothing branches on a test, because
+ * links of a robot overlap about as often as not. */
 SHARED uint marks_of_overlaps(GLOBAL const float4 *bounds, box_bounds own, uint first, uint a)
 {
-  uint end = a - first < MOST_MARKED ? a : first + MOST_MARKED, bits = 0u;
-  for (uint b = first; b < end; ++b)
+  uint bits = 0u;
+  for (uint b = first; b < a; ++b)
     bits |= (bounds_overlap_at_once(own, load_bounds(bounds, b)) ? 1u : 0u) << (b - first);
   return bits;
 }
 
 SHARED int is_pair_by_brute_force(GLOBAL const Parameters *parameters, GLOBAL const uint *body_flags,
-                                   GLOBAL const uint *body_filter, GLOBAL const float4 *bounds, box_bounds own, uint a,
-                                   uint b)
+                                  GLOBAL const uint *body_filter, GLOBAL const float4 *bounds, box_bounds own, uint a,
+                                  uint b)
 {
   return bounds_overlap(own, load_bounds(bounds, b)) && pair_allowed(parameters, body_flags, body_filter, a, b);
 }
@@ -35,13 +35,19 @@ SHARED void brute_force_count_item(GLOBAL const Parameters *parameters, GLOBAL c
 {
   box_bounds own = load_bounds(bounds, a);
   uint first = first_of_world(parameters, body_world, a), found = 0u, bits = 0u;
-  for (uint left = marks_of_overlaps(bounds, own, first, a); left != 0u; left &= left - 1u)
-    if (pair_allowed(parameters, body_flags, body_filter, a, first + lowest_bit(left))) {
-      bits |= left & (0u - left);
-      ++found;
-    }
-  for (uint b = first + MOST_MARKED; b < a; ++b)
-    if (is_pair_by_brute_force(parameters, body_flags, body_filter, bounds, own, a, b)) ++found;
+  if (a - first <= MOST_MARKED) {
+    for (uint left = marks_of_overlaps(bounds, own, first, a); left != 0u; left &= left - 1u)
+      if (pair_allowed(parameters, body_flags, body_filter, a, first + lowest_bit(left))) {
+        bits |= left & (0u - left);
+        ++found;
+      }
+  } else {
+    for (uint b = first; b < a; ++b)
+      if (is_pair_by_brute_force(parameters, body_flags, body_filter, bounds, own, a, b)) {
+        if (b - first < MOST_MARKED) bits |= 1u << (b - first);
+        ++found;
+      }
+  }
   pair_start[a] = found;
   pairs_before[a] = bits;
 }
