@@ -64,8 +64,8 @@ void check_materials(std::span<const Scene> scenes)
 }
 
 /* --- the size of a group ----------------------------------------------------------------------------------------- */
-/* With 64 humanoids of 14 bodies each, or 100 piles of ten, a thread finds what it wrote in its own cache again. */
-constexpr uint32_t bodies_of_group = 1024;
+/* With 64 humanoids of 23 bodies each, a thread finds what it wrote in its own cache again. */
+constexpr uint32_t bodies_of_group = 1536;
 /* Trees of equal worlds go through their kernels in lanes of so many; what is left over takes as long as all of
  * them. */
 constexpr uint32_t worlds_beside = 16;
