@@ -57,5 +57,11 @@ SHARED real impulse_share(GLOBAL const Parameters *parameters, uint back)
   real share = parameters->few_share;
   return back != 0u ? R(1.0) / share : share;
 }
+/* What stands in w is no impulse. */
+SHARED void share_row_if(mask m, GLOBAL float4 *impulse, real share, item_index i)
+{
+  vec4 old = load_float4(impulse, i);
+  store_float4_if(m, impulse, i, extend(scale(xyz(old), share), old.w));
+}
 
 #endif

@@ -19,16 +19,13 @@ SHARED void link_color_keys_item(GLOBAL const uint *pair_a, GLOBAL const uint *p
 {
   uint color = pair_color[i], has_link = is_link(body_link, pair_a[i]) | is_link(body_link, pair_b[i]);
   if (has_link && color == COLOR_OVERFLOW) color = LINK_COLORS;
-  sort_key[i] = color > COLOR_LIMIT ? color : 2u * color + has_link;
-  sort_value[i] = i;
-  pair_constraint[i] = INDEX_NONE;
+  store_key_of_part(sort_key, sort_value, pair_constraint, color, has_link, i);
 }
 
 SHARED void link_color_starts_item(GLOBAL const uint *sort_key, GLOBAL uint *counts, uint i)
 {
-  uint pairs = counts[COUNT_PAIRS];
-  store_color_range(counts, i, first_not_below(sort_key, pairs, 2u * i), first_not_below(sort_key, pairs, 2u * i + 2u));
-  if (i < COLOR_LIMIT) counts[LINK_COLOR_START + i] = first_not_below(sort_key, pairs, 2u * i + 1u);
+  uint first_of_links = store_range_of_parts(sort_key, counts, i);
+  if (i < COLOR_LIMIT) counts[LINK_COLOR_START + i] = first_of_links;
 }
 
 #endif

@@ -69,41 +69,30 @@ SHARED vec4 add_scaled4(vec4 sum, vec4 v, real factor)
 }
 SHARED real dot4(vec4 a, vec4 b) { return (a.x * b.x + a.y * b.y) + (a.z * b.z + a.w * b.w); }
 
-/* How what has pushed the freedoms moves both directions of friction and the twist; and the normals. */
-SHARED vec4 others_moved(const projected_contact *c, const tree_freedoms *z)
+/* Row n of the normals, or of both directions of friction and the twist. */
+enum { ROWS_OF_NORMALS, ROWS_OF_FRICTION };
+SHARED vec4 row_of_kind(const projected_contact *c, uint kind, uint n)
 {
-  vec4 speeds = no_speeds();
-  for (uint n = 0u; n < c->rows; ++n) {
-    vec4 moved = add_scaled4(speeds, c->row[n].others, z->change[c->freedom[n]]);
-    speeds = choose4(has_freedom(c->moved, c->freedom[n]), moved, speeds);
-  }
-  return speeds;
+  return kind == ROWS_OF_NORMALS ? c->row[n].normals : c->row[n].others;
 }
-SHARED vec4 normals_moved(const projected_contact *c, const tree_freedoms *z)
+
+/* How what has pushed the freedoms moves the rows. */
+SHARED vec4 speeds_of_freedoms(const projected_contact *c, uint kind, const tree_freedoms *z)
 {
   vec4 speeds = no_speeds();
   for (uint n = 0u; n < c->rows; ++n) {
-    vec4 moved = add_scaled4(speeds, c->row[n].normals, z->change[c->freedom[n]]);
+    vec4 moved = add_scaled4(speeds, row_of_kind(c, kind, n), z->change[c->freedom[n]]);
     speeds = choose4(has_freedom(c->moved, c->freedom[n]), moved, speeds);
   }
   return speeds;
 }
 
-SHARED void push_others_if(mask pushes, const projected_contact *c, tree_freedoms *z, vec4 impulses)
+SHARED void push_freedoms_if(mask pushes, const projected_contact *c, uint kind, tree_freedoms *z, vec4 impulses)
 {
   if (!any_of(pushes)) return;
   for (uint n = 0u; n < c->rows; ++n) {
     uint freedom = c->freedom[n];
-    real change = z->change[freedom] + dot4(c->row[n].others, impulses);
-    z->change[freedom] = choose(pushes & has_freedom(c->moved, freedom), change, z->change[freedom]);
-  }
-}
-SHARED void push_normals_if(mask pushes, const projected_contact *c, tree_freedoms *z, vec4 impulses)
-{
-  if (!any_of(pushes)) return;
-  for (uint n = 0u; n < c->rows; ++n) {
-    uint freedom = c->freedom[n];
-    real change = z->change[freedom] + dot4(c->row[n].normals, impulses);
+    real change = z->change[freedom] + dot4(row_of_kind(c, kind, n), impulses);
     z->change[freedom] = choose(pushes & has_freedom(c->moved, freedom), change, z->change[freedom]);
   }
 }
@@ -119,21 +108,17 @@ SHARED vec4 friction_after(vec4 impulse, vec4 speeds, vec4 terms, real limit)
   return make_vec4(x * shrink, y * shrink, twist, impulse.w);
 }
 
-SHARED vec4 change_between4(vec4 before, vec4 after)
-{
-  return make_vec4(after.x - before.x, after.y - before.y, after.z - before.z, after.w - before.w);
-}
 SHARED mask is_nonzero4(vec4 v) { return (v.x != R(0.0)) | (v.y != R(0.0)) | (v.z != R(0.0)) | (v.w != R(0.0)); }
 
 SHARED vec4 solve_tree_friction_if(mask rough, const projected_contact *c, read_contact_freedoms f, tree_freedoms *z,
                                    vec4 friction, real limit, mask *pushed)
 {
   if (!any_of(rough)) return friction;
-  vec4 speeds = add4(load_term(c, f, CONTACT_TERM_SPEEDS), others_moved(c, z));
+  vec4 speeds = add4(load_term(c, f, CONTACT_TERM_SPEEDS), speeds_of_freedoms(c, ROWS_OF_FRICTION, z));
   vec4 solved = friction_after(friction, speeds, load_term(c, f, CONTACT_TERM_FRICTION), limit);
-  vec4 change = change_between4(friction, solved);
+  vec4 change = change_between(friction, solved);
   mask pushes = rough & is_nonzero4(change);
-  push_others_if(pushes, c, z, change);
+  push_freedoms_if(pushes, c, ROWS_OF_FRICTION, z, change);
   *pushed = *pushed | pushes;
   return choose4(rough, solved, friction);
 }
@@ -149,7 +134,7 @@ SHARED tree_normals load_tree_normals(const projected_contact *c, read_contact_f
                                       vec4 impulse)
 {
   tree_normals s;
-  s.speed = add4(load_term(c, f, CONTACT_TERM_NORMAL_SPEEDS), normals_moved(c, z));
+  s.speed = add4(load_term(c, f, CONTACT_TERM_NORMAL_SPEEDS), speeds_of_freedoms(c, ROWS_OF_NORMALS, z));
   s.impulse = impulse;
   s.mass = load_term(c, f, CONTACT_TERM_MASSES);
   s.separation = load_term(c, f, CONTACT_TERM_SEPARATIONS);
@@ -199,7 +184,7 @@ SHARED void block_solve_tree_normals(tree_normals *s, vec4 target)
   vec4 change = make_vec4(change_of_normal(m.x, target.x, before.x), change_of_normal(m.y, target.y, before.y),
                           change_of_normal(m.z, target.z, before.z), change_of_normal(m.w, target.w, before.w));
   vec4 answers = make_vec4(inverse_or_zero(m.x), inverse_or_zero(m.y), inverse_or_zero(m.z), inverse_or_zero(m.w));
-  vec4 wanted = change_between4(before, target);
+  vec4 wanted = change_between(before, target);
   real own = (answers.x * change.x) * wanted.x + (answers.y * change.y) * wanted.y +
              ((answers.z * change.z) * wanted.z + (answers.w * change.w) * wanted.w);
   real whole = energy_of_impulses(s, answers, change);
@@ -247,9 +232,9 @@ SHARED void bounce_tree_normals(tree_normals *s, vec4 target_velocity, vec4 high
 SHARED void push_by_normals_if(mask wanted, const projected_contact *c, tree_freedoms *z, vec4 before, vec4 after,
                                mask *pushed)
 {
-  vec4 change = change_between4(before, after);
+  vec4 change = change_between(before, after);
   mask pushes = wanted & is_nonzero4(change);
-  push_normals_if(pushes, c, z, change);
+  push_freedoms_if(pushes, c, ROWS_OF_NORMALS, z, change);
   *pushed = *pushed | pushes;
 }
 

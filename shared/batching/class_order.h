@@ -15,18 +15,13 @@ SHARED void class_color_keys_item(GLOBAL const uint *pair_a, GLOBAL const uint *
                                   GLOBAL const uint *pair_color, GLOBAL uint *sort_key, GLOBAL uint *sort_value,
                                   GLOBAL uint *pair_constraint, uint i)
 {
-  uint color = pair_color[i],
-       of_many = body_class[pair_a[i]] == MANY_SUBSTEPS || body_class[pair_b[i]] == MANY_SUBSTEPS ? 1u : 0u;
-  sort_key[i] = color > COLOR_OVERFLOW ? color : 2u * color + of_many;
-  sort_value[i] = i;
-  pair_constraint[i] = INDEX_NONE;
+  uint of_many = body_class[pair_a[i]] == MANY_SUBSTEPS || body_class[pair_b[i]] == MANY_SUBSTEPS ? 1u : 0u;
+  store_key_of_part(sort_key, sort_value, pair_constraint, pair_color[i], of_many, i);
 }
 
 SHARED void class_color_starts_item(GLOBAL const uint *sort_key, GLOBAL uint *counts, uint i)
 {
-  uint pairs = counts[COUNT_PAIRS];
-  store_color_range(counts, i, first_not_below(sort_key, pairs, 2u * i), first_not_below(sort_key, pairs, 2u * i + 2u));
-  counts[MANY_COLOR_START + i] = first_not_below(sort_key, pairs, 2u * i + 1u);
+  counts[MANY_COLOR_START + i] = store_range_of_parts(sort_key, counts, i);
 }
 
 #endif

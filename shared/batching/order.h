@@ -35,6 +35,24 @@ SHARED void store_color_range(GLOBAL uint *counts, uint color, uint start, uint 
   }
 }
 
+/* --- colours of two parts -------------------------------------------------------------------------------------- */
+SHARED void store_key_of_part(GLOBAL uint *sort_key, GLOBAL uint *sort_value, GLOBAL uint *pair_constraint, uint color,
+                              uint of_second, uint i)
+{
+  sort_key[i] = color > COLOR_OVERFLOW ? color : 2u * color + of_second;
+  sort_value[i] = i;
+  pair_constraint[i] = INDEX_NONE;
+}
+
+/* Returns where the second part of the colour begins. */
+SHARED uint store_range_of_parts(GLOBAL const uint *sort_key, GLOBAL uint *counts, uint color)
+{
+  uint pairs = counts[COUNT_PAIRS];
+  store_color_range(counts, color, first_not_below(sort_key, pairs, 2u * color),
+                    first_not_below(sort_key, pairs, 2u * color + 2u));
+  return first_not_below(sort_key, pairs, 2u * color + 1u);
+}
+
 /* Item c writes the first constraint of colour c. The item of the overflow constraints, which count as a colour, also
  * writes where the constraints end. */
 SHARED void color_starts_item(GLOBAL const uint *sort_key, GLOBAL uint *counts, uint color)

@@ -5,12 +5,6 @@
 
 #include "shared/joints/couplings.h"
 
-SHARED void share_row_if(mask m, GLOBAL float4 *impulse, real share, item_index i)
-{
-  vec4 old = load_float4(impulse, i);
-  store_float4_if(m, impulse, i, extend(scale(xyz(old), share), old.w));
-}
-
 SHARED void share_joint_impulses_item(GLOBAL const Parameters *parameters, GLOBAL const uint *joint_a,
                                       GLOBAL const uint *joint_b, read_turning_bodies bodies,
                                       write_joint_impulses impulses, uint back, item_index i)

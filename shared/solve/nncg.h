@@ -75,13 +75,6 @@ SHARED void nncg_beta_item(GLOBAL const Parameters *parameters, GLOBAL const mem
   nncg_state[NNCG_SUM_BEFORE] = sum;
 }
 
-SHARED vec4 scale4(vec4 v, real s) { return make_vec4(v.x * s, v.y * s, v.z * s, v.w * s); }
-
-SHARED vec4 change_between(vec4 before, vec4 now)
-{
-  return make_vec4(now.x - before.x, now.y - before.y, now.z - before.z, now.w - before.w);
-}
-
 /* Continues along the direction, for impulses and velocities alike. The twist radius, w of friction, never changes. */
 SHARED void nncg_advance_item(GLOBAL const Parameters *parameters, read_contacts contacts, read_patches patches,
                               GLOBAL const float4 *solver_inertia, GLOBAL const float4 *solver_delta_pose,

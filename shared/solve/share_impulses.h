@@ -21,13 +21,8 @@ SHARED void share_contact_impulses_item(GLOBAL const Parameters *parameters, GLO
   mask of_many = is_contact_of_many(body_class, constraint_a, constraint_b, i);
   if (!any_of(of_many)) return;
   real share = impulse_share(parameters, back);
-  vec4 normal = load_float4(constraint_normal_impulse, i);
-  store_float4_if(of_many, constraint_normal_impulse, i,
-                  make_vec4(share * normal.x, share * normal.y, share * normal.z, share * normal.w));
-  if (!HAS_FEATURE(parameters, FRICTION)) return;
-  vec4 friction = load_float4(constraint_friction_impulse, i);
-  store_float4_if(of_many, constraint_friction_impulse, i,
-                  make_vec4(share * friction.x, share * friction.y, share * friction.z, friction.w));
+  store_float4_if(of_many, constraint_normal_impulse, i, scale4(load_float4(constraint_normal_impulse, i), share));
+  if (HAS_FEATURE(parameters, FRICTION)) share_row_if(of_many, constraint_friction_impulse, share, i);
 }
 
 SHARED void share_rolling_impulses_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_class,
@@ -35,9 +30,7 @@ SHARED void share_rolling_impulses_item(GLOBAL const Parameters *parameters, GLO
                                         GLOBAL float4 *constraint_rolling, uint back, item_index i)
 {
   mask of_many = is_contact_of_many(body_class, constraint_a, constraint_b, i);
-  if (!any_of(of_many)) return;
-  vec4 old = load_float4(constraint_rolling, i);
-  store_float4_if(of_many, constraint_rolling, i, extend(scale(xyz(old), impulse_share(parameters, back)), old.w));
+  if (any_of(of_many)) share_row_if(of_many, constraint_rolling, impulse_share(parameters, back), i);
 }
 
 #endif
