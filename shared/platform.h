@@ -50,6 +50,9 @@ typedef unsigned short half_word;
   for (uint i = (barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE), (uint)get_local_id(0)); i < (uint)(n); \
        i += (uint)get_local_size(0))
 #define CHUNKS(many) (many)
+/* A device waits for what an item reads, so loops that can read some records at once and then write them. A CPU would
+ * only have more in registers than it has of these. */
+#define ROWS_AT_ONCE 4u
 
 #else /* C or C++ on the CPU */
 
@@ -59,6 +62,7 @@ typedef unsigned short half_word;
 #define CONSTANT_TABLE
 #define SHARED static inline
 #define CALLED SHARED /* in minicl/lanes.h a function that is not inlined */
+#define ROWS_AT_ONCE 1u
 /* Optimised builds inline such a function into each kernel that calls it, as devices do. A constant that a kernel
  * passes then costs nothing, and the state of a search stays in registers. A debug build keeps it a function, for
  * gdb. */

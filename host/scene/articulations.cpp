@@ -263,7 +263,7 @@ std::vector<double> ArticulationTree::forward_dynamics(const ArticulationState &
   for (uint k = 0; k < tables_->links.size(); ++k) inertial.push_back(load_force(&posed.t, k, WORK_FORCE));
   load_outer_forces(&posed.t, tables_->gravity, 1);
   for (uint k = 0; k < tables_->links.size(); ++k) add_to_force(1, &posed.t, k, WORK_FORCE, inertial[k]);
-  push_all_links(&posed.t);
+  push_links_and_joints(&posed.t);
   settle_tree(&posed.t);
   std::vector<double> accelerations(tables_->velocities);
   for (uint k = 0; k < tables_->links.size(); ++k) {

@@ -185,42 +185,64 @@ SHARED void read_root(read_links links, read_bodies bodies, const articulation *
   store_root(has_links(t), t, (uint)ROOT_LINEAR_FORCE, extend(zero3(), R(0.0)));
 }
 
-SHARED void read_link(read_links links, read_bodies bodies, const articulation *t, tree_link l)
+/* The joint of a link as its bodies have it: position, and numbers of the velocity. */
+typedef struct {
+  vec4 position;
+  vec3 numbers;
+} read_joint;
+
+SHARED read_joint read_link(read_links links, read_bodies bodies, const articulation *t, tree_link l)
 {
   linked_bodies b = bodies_of_link(links, t, l);
   seen_body own = load_seen_body(bodies, b.own),
             parent = choose_seen_body(l.is_root, ground(), load_seen_body(bodies, b.parent));
   seen_joint j = seen_joint_between(t, l, parent, own, offset_of_link(bodies, t, l, b));
+  read_joint r = {position_of_joint(l, j), velocity_of_joint(l, j, parent.velocity, own.velocity)};
   vec4 none = extend(zero3(), R(0.0));
-  store_state(l.exists, t, l.k, (uint)STATE_JOINT_POSITION, position_of_joint(l, j));
-  store_state(l.exists, t, l.k, (uint)STATE_JOINT_VELOCITY,
-              extend(velocity_of_joint(l, j, parent.velocity, own.velocity), R(0.0)));
+  store_state(l.exists, t, l.k, (uint)STATE_JOINT_POSITION, r.position);
+  store_state(l.exists, t, l.k, (uint)STATE_JOINT_VELOCITY, extend(r.numbers, R(0.0)));
   for (uint row = (uint)STATE_JOINT_FORCE; row < (uint)STATE_ROWS; ++row) store_state(l.exists, t, l.k, row, none);
+  return r;
 }
 
-CALLED void read_articulation(read_links links, read_bodies bodies, const articulation *tree)
+/* And places the links where their joints are. */
+CALLED void read_articulation(read_links links, read_bodies bodies, const articulation *tree, real h)
 {
   articulation own = *tree;
   const articulation *t = &own;
   read_root(links, bodies, t);
-  for (uint k = 0; k < t->most_links; ++k) read_link(links, bodies, t, tree_link_of(t, k));
+  standing_link s = standing_ground();
+  for (uint k = 0; k < t->most_links; ++k) {
+    tree_link l = tree_link_of(t, k);
+    read_joint joint = read_link(links, bodies, t, l);
+    s = place_and_weigh_link(t, l, k, s, joint.position, joint.numbers, h);
+  }
 }
 
 /* --- from coordinates to bodies ------------------------------------------------------------------------------- */
-SHARED void write_velocity(read_links links, const articulation *t, tree_link l, GLOBAL float4 *solver_velocity)
+SHARED void write_velocities_from(read_links links, const articulation *t, uint first, GLOBAL float4 *solver_velocity)
 {
-  uint_lanes body = body_of_link(links, t, l.k);
-  spatial_velocity m = load_velocity(solver_velocity, body);
-  spatial_motion now = load_motion(t, l.k, (uint)WORK_VELOCITY);
-  m.linear = now.linear;
-  m.angular = now.angular;
-  store_velocity_if(l.exists, solver_velocity, body, m);
+  tree_link l[ROWS_AT_ONCE];
+  uint_lanes body[ROWS_AT_ONCE];
+  spatial_velocity m[ROWS_AT_ONCE];
+  for (uint n = 0; n < ROWS_AT_ONCE; ++n) {
+    l[n] = tree_link_of(t, first + n);
+    body[n] = body_of_link(links, t, l[n].k);
+  }
+  for (uint n = 0; n < ROWS_AT_ONCE; ++n) {
+    spatial_motion now = load_motion(t, l[n].k, (uint)WORK_VELOCITY);
+    m[n] = load_velocity(solver_velocity, body[n]);
+    m[n].linear = now.linear;
+    m[n].angular = now.angular;
+  }
+  for (uint n = 0; n < ROWS_AT_ONCE; ++n) store_velocity_if(l[n].exists, solver_velocity, body[n], m[n]);
 }
 CALLED void write_velocities(read_links links, const articulation *tree, GLOBAL float4 *solver_velocity)
 {
   articulation own = *tree;
   const articulation *t = &own;
-  for (uint k = 0; k < t->most_links; ++k) write_velocity(links, t, tree_link_of(t, k), solver_velocity);
+  for (uint first = 0; first < t->most_links; first += ROWS_AT_ONCE)
+    write_velocities_from(links, t, first, solver_velocity);
 }
 
 /* What the step has moved the body by, from where it began. */
@@ -240,11 +262,9 @@ CALLED void write_bodies(read_links links, read_bodies bodies, const articulatio
 {
   articulation own = *tree;
   const articulation *t = &own;
-  for (uint k = 0; k < t->most_links; ++k) {
-    tree_link l = tree_link_of(t, k);
-    write_velocity(links, t, l, moved.velocity);
-    write_pose(links, bodies, t, l, moved.delta, moved.orientation);
-  }
+  for (uint k = 0; k < t->most_links; ++k)
+    write_pose(links, bodies, t, tree_link_of(t, k), moved.delta, moved.orientation);
+  write_velocities(links, t, moved.velocity);
 }
 
 #endif

@@ -10,22 +10,15 @@
 #include "shared/articulations/loads.h"
 
 /* The momentum of a link, about its centre. */
-SHARED spatial_force own_momentum_of_link(const articulation *t, tree_link l)
+SHARED spatial_force momentum_of_solid(const solid_link *s, spatial_motion velocity)
 {
-  spatial_motion m = load_motion(t, l.k, (uint)WORK_VELOCITY);
-  spatial_force p = {moments_times(t, l, m.angular), scale(m.linear, mass_of_link(t, l))};
+  spatial_force p = {moments_times(s, velocity.angular), scale(velocity.linear, s->mass)};
   return p;
 }
-/* About the point at -arm from its centre. */
-SHARED spatial_force momentum_of_link(const articulation *t, tree_link l, vec3 arm)
+SHARED spatial_force own_momentum_of_link(const articulation *t, tree_link l)
 {
-  return force_at(own_momentum_of_link(t, l), negate(arm));
-}
-/* About the centre of a free root. */
-SHARED spatial_force with_momentum_of_link(spatial_force sum, const articulation *t, tree_link l)
-{
-  spatial_force p = momentum_of_link(t, l, xyz(load_work(t, l.k, (uint)WORK_OFFSET)));
-  return choose_force(l.exists, add_forces(sum, p), sum);
+  solid_link s = load_solid_link(t, l);
+  return momentum_of_solid(&s, load_motion(t, l.k, (uint)WORK_VELOCITY));
 }
 /* Of a free root; else 0. */
 SHARED vec3 root_velocity(const articulation *t)
@@ -33,21 +26,29 @@ SHARED vec3 root_velocity(const articulation *t)
   return choose3(tree_link_of(t, 0u).is_free, xyz(load_root(t, (uint)ROOT_LINEAR_VELOCITY)), zero3());
 }
 
-/* Kinetic, J, as seen from a frame that moves so, with that of armatures. */
-SHARED real energy_of_link(const articulation *t, tree_link l, vec3 frame)
+/* Kinetic, J, as seen from a frame that moves so, with that of armatures. numbers: of the joint's velocity. */
+SHARED real energy_of_link(const solid_link *s, spatial_motion m, vec3 numbers, real armature, vec3 frame)
 {
-  spatial_motion m = load_motion(t, l.k, (uint)WORK_VELOCITY);
-  vec3 linear = subtract(m.linear, frame), numbers = xyz(load_state(t, l.k, (uint)STATE_JOINT_VELOCITY));
-  real armature = choose(l.is_free, (real)R(0.0), load_link(t, l.k, (uint)LINK_FRAME_A).w);
-  return R(0.5) * (dot3(m.angular, moments_times(t, l, m.angular)) + mass_of_link(t, l) * length_squared(linear) +
+  vec3 linear = subtract(m.linear, frame);
+  return R(0.5) * (dot3(m.angular, moments_times(s, m.angular)) + s->mass * length_squared(linear) +
                    armature * length_squared(numbers));
+}
+SHARED real armature_of_link(const articulation *t, tree_link l)
+{
+  return choose(l.is_free, (real)R(0.0), load_link(t, l.k, (uint)LINK_FRAME_A).w);
+}
+SHARED real load_energy_of_link(const articulation *t, tree_link l, spatial_motion velocity, vec3 frame)
+{
+  solid_link s = load_solid_link(t, l);
+  return choose(l.exists, energy_of_link(&s, velocity, load_joint_velocity(t, l), armature_of_link(t, l), frame),
+                (real)R(0.0));
 }
 SHARED real energy_of_tree(const articulation *t, vec3 frame)
 {
   real sum = R(0.0);
   for (uint k = 0; k < t->most_links; ++k) {
     tree_link l = tree_link_of(t, k);
-    sum = sum + choose(l.exists, energy_of_link(t, l, frame), (real)R(0.0));
+    sum = sum + load_energy_of_link(t, l, load_motion(t, l.k, (uint)WORK_VELOCITY), frame);
   }
   return sum;
 }
@@ -58,15 +59,12 @@ typedef struct {
   spatial_force momentum;
 } whole_tree;
 
-SHARED whole_tree tree_as_one_body(const articulation *t)
+SHARED whole_tree with_link(whole_tree sum, tree_link l, const solid_link *solid, vec3 offset, spatial_motion velocity)
 {
-  whole_tree whole = {zero_symmetric6(), no_force()};
-  for (uint k = 0; k < t->most_links; ++k) {
-    tree_link l = tree_link_of(t, k);
-    symmetric6 s = symmetric6_at(inertia_of_link(t, l), negate(xyz(load_work(t, l.k, (uint)WORK_OFFSET))));
-    whole.inertia = choose_symmetric6(l.exists, add_symmetric6(whole.inertia, s), whole.inertia);
-    whole.momentum = with_momentum_of_link(whole.momentum, t, l);
-  }
+  symmetric6 s = symmetric6_at(inertia_of_solid(*solid), negate(offset));
+  spatial_force p = force_at(momentum_of_solid(solid, velocity), negate(offset));
+  whole_tree whole = {choose_symmetric6(l.exists, add_symmetric6(sum.inertia, s), sum.inertia),
+                      choose_force(l.exists, add_forces(sum.momentum, p), sum.momentum)};
   return whole;
 }
 
@@ -76,19 +74,11 @@ typedef struct {
   vec3 moment;
 } mass_moment;
 
-SHARED mass_moment with_mass_of_link(mass_moment sum, const articulation *t, tree_link l)
+SHARED mass_moment with_mass_of_link(mass_moment sum, tree_link l, real mass, vec3 offset)
 {
-  real own = choose(l.exists, mass_of_link(t, l), (real)R(0.0));
-  mass_moment next = {sum.mass + own, add_scaled(sum.moment, xyz(load_work(t, l.k, (uint)WORK_OFFSET)), own)};
+  real own = choose(l.exists, mass, (real)R(0.0));
+  mass_moment next = {sum.mass + own, add_scaled(sum.moment, offset, own)};
   return next;
-}
-
-/* The centre of mass, from that of the root. */
-SHARED vec3 center_of_tree(const articulation *t, real inverse_mass)
-{
-  mass_moment sum = {R(0.0), zero3()};
-  for (uint k = 0; k < t->most_links; ++k) sum = with_mass_of_link(sum, t, tree_link_of(t, k));
-  return scale(sum.moment, inverse_mass);
 }
 
 /* What free motion keeps. drift: the velocity of the centre of mass of a free tree, from which the energy is seen, so
@@ -99,28 +89,32 @@ typedef struct {
   real energy, inverse_mass;
 } conserved;
 
-SHARED conserved conserved_of_tree(const articulation *t)
+/* Without the energy. */
+SHARED conserved momentum_of_tree(const articulation *t)
 {
   conserved c;
   mass_moment sum = {R(0.0), zero3()};
   c.momentum = no_force();
+  c.energy = R(0.0);
   for (uint k = 0; k < t->most_links; ++k) {
     tree_link l = tree_link_of(t, k);
-    c.momentum = with_momentum_of_link(c.momentum, t, l);
-    sum = with_mass_of_link(sum, t, l);
+    solid_link solid = load_solid_link(t, l);
+    vec3 offset = xyz(load_work(t, l.k, (uint)WORK_OFFSET));
+    spatial_force own = momentum_of_solid(&solid, load_motion(t, l.k, (uint)WORK_VELOCITY));
+    c.momentum = choose_force(l.exists, add_forces(c.momentum, force_at(own, negate(offset))), c.momentum);
+    sum = with_mass_of_link(sum, l, solid.mass, offset);
   }
   c.inverse_mass = inverse_if_positive(sum.mass);
   vec3 drift = scale(c.momentum.force, c.inverse_mass);
   c.drift = choose3(tree_link_of(t, 0u).is_free, drift, zero3());
   c.center = scale(sum.moment, c.inverse_mass);
-  c.energy = energy_of_tree(t, c.drift);
   return c;
 }
 
 /* share: of the energy before. */
-SHARED mask has_changed_energy(const articulation *t, conserved before, real share)
+SHARED mask has_changed_energy(const articulation *t, conserved before, real energy, real share)
 {
-  real change = magnitude(energy_of_tree(t, before.drift) - before.energy);
+  real change = magnitude(energy - before.energy);
   return (!(change <= share * before.energy)) & has_links(t);
 }
 
@@ -130,16 +124,25 @@ SHARED void set_root_motion_if(mask wanted, const articulation *t, spatial_motio
   store_root(wanted, t, (uint)ROOT_LINEAR_VELOCITY, extend(m.linear, R(0.0)));
 }
 
-/* Adds a motion of the tree as one body, given at the centre of the root, which is free. */
-SHARED void carry_tree_if(mask wanted, const articulation *t, spatial_motion whole)
+/* Adds a motion of the tree as one body, given at the centre of the root, which is free. The velocity after that. */
+SHARED spatial_motion carry_link_if(mask wanted, const articulation *t, tree_link l, spatial_motion whole)
 {
+  spatial_motion m = load_motion(t, l.k, (uint)WORK_VELOCITY);
+  if (!any_of(wanted)) return m;
+  spatial_motion carried = add_motions(m, motion_at(whole, xyz(load_work(t, l.k, (uint)WORK_OFFSET))));
+  store_motion(wanted & l.exists, t, l.k, (uint)WORK_VELOCITY, carried);
+  return choose_motion(wanted, carried, m);
+}
+/* The energy after that, of all trees. */
+SHARED real carry_tree_if(mask wanted, const articulation *t, spatial_motion whole, vec3 frame)
+{
+  real energy = R(0.0);
   for (uint k = 0; k < t->most_links; ++k) {
     tree_link l = tree_link_of(t, k);
-    spatial_motion m = load_motion(t, l.k, (uint)WORK_VELOCITY);
-    m = add_motions(m, motion_at(whole, xyz(load_work(t, l.k, (uint)WORK_OFFSET))));
-    store_motion(wanted & l.exists, t, l.k, (uint)WORK_VELOCITY, m);
+    energy = energy + load_energy_of_link(t, l, carry_link_if(wanted, t, l, whole), frame);
   }
   set_root_motion_if(wanted, t, load_motion(t, 0u, (uint)WORK_VELOCITY));
+  return energy;
 }
 
 /* m, of which the part beyond `whole` is scaled. */
@@ -183,12 +186,12 @@ SHARED void scale_links_if(mask wanted, const articulation *t, spatial_motion wh
   set_root_motion_if(free, t, load_motion(t, 0u, (uint)WORK_VELOCITY));
 }
 
-/* drifts: the motion of the tree as it drifts. turns: what the tree as one body does besides. Where the latter alone
- * has more energy than there was, in a shape that the tree cannot have reached, the momentum gives way. */
-SHARED void hold_energy_if(mask wanted, const articulation *t, conserved kept, spatial_motion drifts,
+/* energy: now. drifts: the motion of the tree as it drifts. turns: what the tree as one body does besides. Where the
+ * latter alone has more energy than there was, in a shape that the tree cannot have reached, the momentum gives way. */
+SHARED void hold_energy_if(mask wanted, const articulation *t, conserved kept, real energy, spatial_motion drifts,
                            spatial_motion turns, real of_turns)
 {
-  real within = energy_of_tree(t, kept.drift) - of_turns;
+  real within = energy - of_turns;
   mask scales = wanted & (within > LEAST_ENERGY_WITHIN * of_turns);
   scale_links_if(scales, t, add_motions(drifts, turns), factor_of_energies(within, kept.energy - of_turns));
   real now = energy_of_tree(t, kept.drift);
@@ -199,23 +202,23 @@ SHARED void hold_energy_if(mask wanted, const articulation *t, conserved kept, s
 /* A substep that changes so little of the energy has the errors of a symmetric rule, which hardly add up. */
 #define LARGEST_CHANGE_IN_SUBSTEP R(2e-5)
 
-/* kept: before the motion, the momentum about where the centre of the root is now. */
-SHARED void conserve(const articulation *t, conserved kept)
+/* kept: before the motion, the momentum about where the centre of the root is now. whole: of free trees, now. */
+SHARED void conserve(const articulation *t, conserved kept, whole_tree whole)
 {
   mask free = tree_link_of(t, 0u).is_free & has_links(t);
-  spatial_motion drifts = no_motion(), turns = no_motion();
+  spatial_motion drifts = no_motion(), turns = no_motion(), missed = no_motion();
   real of_turns = R(0.0);
   if (any_of(free)) {
-    whole_tree whole = tree_as_one_body(t);
     symmetric6 inverse = inverse_of_inertia(whole.inertia);
-    carry_tree_if(free, t, inverse_times(&inverse, subtract_forces(kept.momentum, whole.momentum)));
+    missed = inverse_times(&inverse, subtract_forces(kept.momentum, whole.momentum));
     drifts.linear = kept.drift;
     spatial_force rest = subtract_forces(kept.momentum, inertia_times(&whole.inertia, drifts));
     turns = choose_motion(free, inverse_times(&inverse, rest), no_motion());
     of_turns = choose(free, R(0.5) * power_of(rest, turns), of_turns);
   }
-  mask changed = has_changed_energy(t, kept, LARGEST_CHANGE_IN_SUBSTEP);
-  if (any_of(changed)) hold_energy_if(changed, t, kept, drifts, turns, of_turns);
+  real energy = carry_tree_if(free, t, missed, kept.drift);
+  mask changed = has_changed_energy(t, kept, energy, LARGEST_CHANGE_IN_SUBSTEP);
+  if (any_of(changed)) hold_energy_if(changed, t, kept, energy, drifts, turns, of_turns);
 }
 
 #endif

@@ -44,7 +44,8 @@ SHARED real sum_of_coupling(const tree_coupling *c, real of_a, real of_b) { retu
 /* An impulse of a joint of one degree of freedom becomes pending. */
 SHARED void push_joint_if(mask wanted, const articulation *t, tree_link l, real impulse)
 {
-  joint_share s = share_of_joint(t, l, load_placed_joint(t, l), no_force(), make_vec3(impulse, R(0.0), R(0.0)));
+  factored_joint f = load_factored_joint(t, l);
+  joint_share s = share_of_joint(t, l, &f, no_force(), make_vec3(impulse, R(0.0), R(0.0)));
   spatial_force pending = {s.pending, zero3()};
   add_to_force(wanted, t, l.k, (uint)WORK_PENDING, pending);
   push_link_if(wanted & !l.is_root, t, l.parent, &s.rest);
@@ -54,9 +55,8 @@ SHARED void push_joint_if(mask wanted, const articulation *t, tree_link l, real 
 SHARED real pending_change_of_joint(mask wanted, const articulation *t, tree_link l)
 {
   spatial_motion parent = pending_change(t, choose(wanted & !l.is_root, (uint_lanes)l.parent, t->links));
-  vec3 change;
-  link_change(t, l, choose_motion(l.is_root, no_motion(), parent), &change);
-  return change.x;
+  factored_joint f = load_factored_joint(t, l);
+  return link_change(t, l, &f, load_pending(t, l.k), choose_motion(l.is_root, no_motion(), parent)).joint.x;
 }
 
 /* Nothing is pending before; what a unit impulse of the row does is pending then. In statements, because each change

@@ -25,7 +25,7 @@ SHARED void find_composite_inertias(const articulation *t)
 {
   for (uint k = 0; k < t->most_links; ++k) {
     tree_link l = tree_link_of(t, k);
-    store_symmetric6(l.exists, t, l.k, inertia_of_link(t, l));
+    store_symmetric6(l.exists, t, l.k, inertia_of_solid(load_solid_link(t, l)));
   }
   for (uint n = t->most_links; n > 0u; --n) {
     tree_link l = tree_link_of(t, n - 1u);

@@ -61,15 +61,35 @@ SHARED void store_ball_factor(mask m, const articulation *t, tree_link l, ball_f
 
 SHARED spatial_motion axis_motion(tree_link l, placed_joint j) { return joint_motion(l, xyz(j.frame), zero3()); }
 
-/* The inertia of the link alone. */
-SHARED symmetric6 inertia_of_link(const articulation *t, tree_link l)
+/* A link by itself: its axes, its moments about them, its mass. */
+typedef struct {
+  mat3 axes;
+  vec3 moments;
+  real mass;
+} solid_link;
+
+SHARED solid_link load_solid_of(const articulation *t, tree_link l, quat orientation)
 {
-  quat q = quat_from(load_work(t, l.k, (uint)WORK_ORIENTATION));
-  real mass = load_link(t, l.k, (uint)LINK_FRAME_B).w;
-  symmetric6 s = zero_symmetric6();
-  s.first = rotate_diagonal(rotation_of(q), xyz(load_link(t, l.k, (uint)LINK_MOMENTS)));
-  s.second.xx = s.second.yy = s.second.zz = mass;
+  solid_link s = {rotation_of(orientation), xyz(load_link(t, l.k, (uint)LINK_MOMENTS)),
+                  load_link(t, l.k, (uint)LINK_FRAME_B).w};
   return s;
+}
+SHARED solid_link load_solid_link(const articulation *t, tree_link l)
+{
+  return load_solid_of(t, l, quat_from(load_work(t, l.k, (uint)WORK_ORIENTATION)));
+}
+
+SHARED symmetric6 inertia_of_solid(solid_link solid)
+{
+  symmetric6 s = zero_symmetric6();
+  s.first = rotate_diagonal(solid.axes, solid.moments);
+  s.second.xx = s.second.yy = s.second.zz = solid.mass;
+  return s;
+}
+/* Its inertia times a vector of the world. */
+SHARED vec3 moments_times(const solid_link *s, vec3 v)
+{
+  return rotate(s->axes, multiply(s->moments, rotate_back(s->axes, v)));
 }
 
 SHARED symmetric6 through_single(const articulation *t, tree_link l, placed_joint j, symmetric6 s)
@@ -122,9 +142,8 @@ SHARED symmetric6 through_ball(const articulation *t, tree_link l, placed_joint 
 }
 
 /* What the parent feels of the inertia s of a link, at the parent's centre. */
-SHARED symmetric6 inertia_through_joint(const articulation *t, tree_link l, symmetric6 s)
+SHARED symmetric6 inertia_through_joint(const articulation *t, tree_link l, placed_joint j, symmetric6 s)
 {
-  placed_joint j = load_placed_joint(t, l);
   symmetric6 at_b = symmetric6_at(s, negate(j.to_center)), through = at_b;
   mask one = has_one_freedom(l);
   if (any_of(one)) through = choose_symmetric6(one, through_single(t, l, j, at_b), through);
@@ -132,21 +151,28 @@ SHARED symmetric6 inertia_through_joint(const articulation *t, tree_link l, symm
   return symmetric6_at(through, negate(j.from_parent));
 }
 
-/* From the inertias of single links in WORK_INERTIA to the articulated ones; that of a free root is inverted. */
+/* From the inertias of single links in WORK_INERTIA to the factors of all joints; the inertia of a free root is
+ * inverted. Of the other links, WORK_INERTIA has no articulated inertia. */
 CALLED void factor_tree(const articulation *tree)
 {
   articulation own = *tree;
   const articulation *t = &own;
+  symmetric6 s = zero_symmetric6(), through = s;
+  mask follows = has_links(t) & !has_links(t); /* link k + 1 */
   for (uint n = t->most_links; n > 0u; --n) {
     tree_link l = tree_link_of(t, n - 1u);
-    symmetric6 s = load_symmetric6(t, l.k);
-    symmetric6 through = inertia_through_joint(t, l, s);
+    placed_joint j = load_placed_joint(t, l);
+    s = load_symmetric6(t, l.k);
+    s = choose_symmetric6(follows, add_symmetric6(s, through), s);
+    through = inertia_through_joint(t, l, j, s);
     mask inner = l.exists & !l.is_root;
-    store_symmetric6(inner, t, l.parent, add_symmetric6(load_symmetric6(t, l.parent), through));
+    follows = inner & follows_at_once(l, n - 1u);
+    mask apart = inner & !follows;
+    if (any_of(apart)) store_symmetric6(apart, t, l.parent, add_symmetric6(load_symmetric6(t, l.parent), through));
   }
   tree_link root = tree_link_of(t, 0u);
-  if (any_of(root.is_free))
-    store_symmetric6(root.exists & root.is_free, t, root.k, inverse_of_inertia(load_symmetric6(t, root.k)));
+  mask free = root.exists & root.is_free;
+  if (any_of(free)) store_symmetric6(free, t, root.k, inverse_of_inertia(s));
 }
 
 #endif

@@ -90,7 +90,8 @@ CALLED void take_to_ancestor_if(mask wanted, const articulation *tree, uint_lane
   spatial_force f = *impulse;
   for (mask below = wanted & (k != ancestor); any_of(below); below = below & (k != ancestor)) {
     tree_link l = tree_link_of(t, k);
-    f = choose_force(below, share_of_joint(t, l, load_placed_joint(t, l), f, zero3()).rest, f);
+    factored_joint joint = load_factored_joint(t, l);
+    f = choose_force(below, share_of_joint(t, l, &joint, f, zero3()).rest, f);
     k = choose(below, l.parent, k);
   }
   *impulse = f;

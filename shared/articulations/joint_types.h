@@ -75,6 +75,7 @@ enum {
   WORK_INERTIA = WORK_VELOCITY + 2, /* six rows: the articulated inertia, later its inverse (link_inertia.h) */
   WORK_FACTOR = WORK_INERTIA + 6,   /* four rows (factor.h) */
   WORK_PENDING = WORK_FACTOR + 4,   /* two rows (respond.h) */
+  WORK_ACCELERATION = WORK_PENDING, /* until what is pending is found (loads.h) */
   WORK_CHANGE = WORK_PENDING + 2,   /* two rows: an acceleration, or a change of velocity */
   WORK_FORCE = WORK_CHANGE + 2,     /* two rows: a force, or an impulse */
   WORK_ROWS = WORK_FORCE + 2

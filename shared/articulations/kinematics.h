@@ -24,48 +24,94 @@ SHARED quat joint_rotation(tree_link l, vec4 position)
   return turn;
 }
 
-/* h: of the substep, of which drives.h knows why. The parent has its place. */
-SHARED void place_link(const articulation *t, tree_link l, real h)
+/* A link where it stands, and how it moves. offset: of its centre from ROOT_POSITION. */
+typedef struct {
+  quat orientation;
+  vec3 offset;
+  spatial_motion velocity;
+} standing_link;
+
+SHARED standing_link standing_ground(void)
 {
-  vec4 frame_a = load_link(t, l.k, (uint)LINK_FRAME_A), frame_b = load_link(t, l.k, (uint)LINK_FRAME_B);
-  quat parent = quat_from(
-      choose4(l.is_root, make_vec4(R(0.0), R(0.0), R(0.0), R(1.0)), load_work(t, l.parent, (uint)WORK_ORIENTATION)));
-  quat a = quat_multiply(parent, quat_from(load_link(t, l.k, (uint)LINK_FRAME_A_ORIENTATION)));
-  vec4 position = load_state(t, l.k, (uint)STATE_JOINT_POSITION);
-  quat b = quat_multiply(a, joint_rotation(l, position));
-  quat own = quat_normalized(quat_multiply(b, conjugate(quat_from(load_link(t, l.k, (uint)LINK_FRAME_B_ORIENTATION)))));
-  vec3 axis = axis_x(rotation_of(a)), from_parent = rotate(rotation_of(parent), xyz(frame_a));
-  if (any_of(l.is_slider)) from_parent = choose3(l.is_slider, add_scaled(from_parent, axis, position.x), from_parent);
-  vec3 to_center = negate(rotate(rotation_of(own), xyz(frame_b)));
-  vec3 start = choose3(l.is_root, zero3(), xyz(load_work(t, l.parent, (uint)WORK_OFFSET)));
-  real inertia = implicit_inertia_of(t, l, frame_a.w, load_link(t, l.k, (uint)LINK_MOMENTS).w, h);
-  store_work(l.exists, t, l.k, (uint)WORK_ORIENTATION, quat_to_vec4(own));
-  store_work(l.exists, t, l.k, (uint)WORK_OFFSET, extend(add(start, add(from_parent, to_center)), R(0.0)));
-  store_work(l.exists, t, l.k, (uint)WORK_FROM_PARENT, extend(from_parent, R(0.0)));
-  store_work(l.exists, t, l.k, (uint)WORK_TO_CENTER, extend(to_center, inertia));
-  store_work(l.exists, t, l.k, (uint)WORK_FRAME, choose4(l.is_ball, quat_to_vec4(a), extend(axis, R(0.0))));
+  standing_link g = {make_quat(R(0.0), R(0.0), R(0.0), R(1.0)), zero3(), no_motion()};
+  return g;
+}
+SHARED standing_link choose_standing_link(mask m, standing_link a, standing_link b)
+{
+  standing_link s = {quat_from(choose4(m, quat_to_vec4(a.orientation), quat_to_vec4(b.orientation))),
+                     choose3(m, a.offset, b.offset), choose_motion(m, a.velocity, b.velocity)};
+  return s;
+}
+SHARED standing_link load_standing_link(const articulation *t, shape_uint k)
+{
+  standing_link s = {quat_from(load_work(t, k, (uint)WORK_ORIENTATION)), xyz(load_work(t, k, (uint)WORK_OFFSET)),
+                     load_motion(t, k, (uint)WORK_VELOCITY)};
+  return s;
+}
+/* before: link k - 1. */
+SHARED standing_link standing_parent(const articulation *t, tree_link l, uint k, standing_link before)
+{
+  mask follows = follows_at_once(l, k);
+  if (!any_of(!follows)) return before;
+  standing_link loaded = choose_standing_link(l.is_root, standing_ground(), load_standing_link(t, l.parent));
+  return choose_standing_link(follows, before, loaded);
 }
 
-SHARED vec3 joint_velocity_in_world(const articulation *t, tree_link l, vec4 frame)
+/* The velocity of the link, at its centre. world: of the joint; linear: of a free root. */
+SHARED spatial_motion link_velocity(tree_link l, placed_joint j, vec3 world, vec3 linear, spatial_motion parent)
 {
-  return vector_of_numbers(l, frame, xyz(load_state(t, l.k, (uint)STATE_JOINT_VELOCITY)));
-}
-
-/* The velocity of the link, at its centre. */
-SHARED spatial_motion link_velocity(const articulation *t, tree_link l, placed_joint j)
-{
-  spatial_motion at_b = motion_at(load_parent_motion(t, l, (uint)WORK_VELOCITY), j.from_parent);
-  spatial_motion own =
-      joint_motion(l, joint_velocity_in_world(t, l, j.frame), xyz(load_root(t, (uint)ROOT_LINEAR_VELOCITY)));
+  spatial_motion at_b = motion_at(parent, j.from_parent), own = joint_motion(l, world, linear);
   at_b.angular = add(at_b.angular, own.angular);
   at_b.linear = add(at_b.linear, own.linear);
   return motion_at(at_b, j.to_center);
 }
-
-/* Of a link whose parent moves already. */
-SHARED void move_link(const articulation *t, tree_link l)
+SHARED vec3 linear_velocity_of_root(const articulation *t, tree_link l)
 {
-  store_motion(l.exists, t, l.k, (uint)WORK_VELOCITY, link_velocity(t, l, load_placed_joint(t, l)));
+  return any_of(l.is_free) ? xyz(load_root(t, (uint)ROOT_LINEAR_VELOCITY)) : zero3();
+}
+
+SHARED placed_joint place_joint(tree_link l, vec4 position, quat parent, quat a, quat own, vec3 arm_a, vec3 arm_b,
+                                real inertia)
+{
+  placed_joint j;
+  vec3 axis = axis_x(rotation_of(a));
+  j.from_parent = rotate(rotation_of(parent), arm_a);
+  if (any_of(l.is_slider))
+    j.from_parent = choose3(l.is_slider, add_scaled(j.from_parent, axis, position.x), j.from_parent);
+  j.to_center = negate(rotate(rotation_of(own), arm_b));
+  j.frame = choose4(l.is_ball, quat_to_vec4(a), extend(axis, R(0.0)));
+  j.implicit_inertia = inertia;
+  return j;
+}
+
+/* h: of the substep, of which drives.h knows why. position, numbers: of the joint and of its velocity. */
+SHARED standing_link place_link(const articulation *t, tree_link l, standing_link parent, vec4 position, vec3 numbers,
+                                real h)
+{
+  vec4 frame_a = load_link(t, l.k, (uint)LINK_FRAME_A), frame_b = load_link(t, l.k, (uint)LINK_FRAME_B);
+  vec4 of_a = load_link(t, l.k, (uint)LINK_FRAME_A_ORIENTATION),
+       of_b = load_link(t, l.k, (uint)LINK_FRAME_B_ORIENTATION);
+  vec3 linear = linear_velocity_of_root(t, l);
+  real inertia = implicit_inertia_of(t, l, frame_a.w, load_link(t, l.k, (uint)LINK_MOMENTS).w, h);
+  quat a = quat_multiply(parent.orientation, quat_from(of_a)), b = quat_multiply(a, joint_rotation(l, position));
+  standing_link own;
+  own.orientation = quat_normalized(quat_multiply(b, conjugate(quat_from(of_b))));
+  placed_joint j =
+      place_joint(l, position, parent.orientation, a, own.orientation, xyz(frame_a), xyz(frame_b), inertia);
+  own.offset = add(parent.offset, add(j.from_parent, j.to_center));
+  own.velocity = link_velocity(l, j, vector_of_numbers(l, j.frame, numbers), linear, parent.velocity);
+  store_work(l.exists, t, l.k, (uint)WORK_ORIENTATION, quat_to_vec4(own.orientation));
+  store_work(l.exists, t, l.k, (uint)WORK_OFFSET, extend(own.offset, R(0.0)));
+  store_work(l.exists, t, l.k, (uint)WORK_FROM_PARENT, extend(j.from_parent, R(0.0)));
+  store_work(l.exists, t, l.k, (uint)WORK_TO_CENTER, extend(j.to_center, inertia));
+  store_work(l.exists, t, l.k, (uint)WORK_FRAME, j.frame);
+  store_motion(l.exists, t, l.k, (uint)WORK_VELOCITY, own.velocity);
+  return own;
+}
+
+SHARED vec3 load_joint_velocity(const articulation *t, tree_link l)
+{
+  return xyz(load_state(t, l.k, (uint)STATE_JOINT_VELOCITY));
 }
 
 SHARED double_float3 root_position(const articulation *t)

@@ -14,15 +14,16 @@
 
 #include "shared/articulations/respond.h"
 
-SHARED symmetric6 followed_by_single(const articulation *t, tree_link l, placed_joint j, symmetric6 w)
+/* response: of the joint. */
+SHARED symmetric6 followed_by_single(tree_link l, const factored_joint *joint, symmetric6 w, real *response)
 {
-  single_factor f = load_single_factor(t, l);
+  single_factor f = joint->single;
   spatial_motion z = inverse_times(&w, f.u);
   z.angular = scale(z.angular, f.inverse);
   z.linear = scale(z.linear, f.inverse);
   f.response = f.inverse + power_of(f.u, z) * f.inverse;
-  store_single_factor(l.exists & has_one_freedom(l), t, l, f);
-  spatial_motion s = axis_motion(l, j);
+  *response = f.response;
+  spatial_motion s = axis_motion(l, joint->joint);
   w.second = add_products(add_products(w.second, s.angular, z.angular, R(-2.0)), s.angular, s.angular, f.response);
   w.first = add_products(add_products(w.first, s.linear, z.linear, R(-2.0)), s.linear, s.linear, f.response);
   w.coupling = add_product(add_product(w.coupling, z.linear, s.angular, R(-1.0)), s.linear, z.angular, R(-1.0));
@@ -47,10 +48,10 @@ SHARED mat3 subtract_matrices(mat3 a, mat3 b)
 }
 
 /* The turn of the link is  E w - G v + what the joint gives;  E = e D^-1. */
-SHARED symmetric6 followed_by_ball(const articulation *t, tree_link l, placed_joint j, symmetric6 w)
+SHARED symmetric6 followed_by_ball(const articulation *t, tree_link l, const factored_joint *joint, symmetric6 w)
 {
   ball_factor f = load_ball_factor(t, l);
-  mat3 e = symmetric_as_matrix(scaled_symmetric(f.inverse, j.implicit_inertia));
+  mat3 e = symmetric_as_matrix(scaled_symmetric(f.inverse, joint->joint.implicit_inertia));
   mat3 by_moment = subtract_matrices(times_symmetric(e, w.second), matrix_product(f.g, w.coupling));
   mat3 by_force = subtract_matrices(matrix_product(e, transposed(w.coupling)), times_symmetric(f.g, w.first));
   symmetric6 r;
@@ -61,23 +62,45 @@ SHARED symmetric6 followed_by_ball(const articulation *t, tree_link l, placed_jo
   return r;
 }
 
-/* After this, WORK_INERTIA has the inverse inertias at the centres of the links, and nothing is pending. */
+/* The inverse inertia of the parent of link k. before: that of link k - 1. */
+SHARED symmetric6 inverse_inertia_of_parent(const articulation *t, tree_link l, uint k, const symmetric6 *before)
+{
+  mask follows = follows_at_once(l, k);
+  if (!any_of(!follows)) return *before;
+  symmetric6 loaded = choose_symmetric6(l.is_root, zero_symmetric6(), load_symmetric6(t, l.parent));
+  return choose_symmetric6(follows, *before, loaded);
+}
+
+/* Leaves in WORK_INERTIA the inverse inertia at the centre of link k, which that of a free root is already. */
+SHARED symmetric6 invert_link_inertia(const articulation *t, tree_link l, const factored_joint *f, uint k,
+                                      const symmetric6 *before)
+{
+  mask one = has_one_freedom(l);
+  real response = R(0.0);
+  symmetric6 w = symmetric6_at(inverse_inertia_of_parent(t, l, k, before), f->joint.from_parent);
+  if (any_of(one)) w = choose_symmetric6(one, followed_by_single(l, f, w, &response), w);
+  if (any_of(l.is_ball)) w = choose_symmetric6(l.is_ball, followed_by_ball(t, l, f, w), w);
+  w = symmetric6_at(w, f->joint.to_center);
+  if (any_of(l.is_free)) w = choose_symmetric6(l.is_free, load_symmetric6(t, l.k), w);
+  store_work(l.exists & one, t, l.k, (uint)WORK_FACTOR + 1u, extend(f->single.u.force, response));
+  store_symmetric6(l.exists & !l.is_free, t, l.k, w);
+  return w;
+}
+
+SHARED symmetric6 invert_link_inertia_at_rest(const articulation *t, tree_link l, uint k, const symmetric6 *before)
+{
+  factored_joint f = load_factored_joint(t, l);
+  symmetric6 w = invert_link_inertia(t, l, &f, k, before);
+  store_force(l.exists, t, l.k, (uint)WORK_PENDING, no_force());
+  return w;
+}
+/* Nothing is pending then. */
 CALLED void invert_link_inertias(const articulation *tree)
 {
   articulation own = *tree;
   const articulation *t = &own;
-  for (uint k = 0; k < t->most_links; ++k) {
-    tree_link l = tree_link_of(t, k);
-    placed_joint j = load_placed_joint(t, l);
-    symmetric6 parent = choose_symmetric6(l.is_root, zero_symmetric6(), load_symmetric6(t, l.parent));
-    symmetric6 w = symmetric6_at(parent, j.from_parent);
-    mask one = has_one_freedom(l);
-    if (any_of(one)) w = choose_symmetric6(one, followed_by_single(t, l, j, w), w);
-    if (any_of(l.is_ball)) w = choose_symmetric6(l.is_ball, followed_by_ball(t, l, j, w), w);
-    w = symmetric6_at(w, j.to_center);
-    store_symmetric6(l.exists & !l.is_free, t, l.k, w);
-    store_force(l.exists, t, l.k, (uint)WORK_PENDING, no_force());
-  }
+  symmetric6 w = zero_symmetric6();
+  for (uint k = 0; k < t->most_links; ++k) w = invert_link_inertia_at_rest(t, tree_link_of(t, k), k, &w);
 }
 
 #endif

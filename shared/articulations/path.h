@@ -139,7 +139,7 @@ SHARED following_joint load_following_joint(const articulation *t, tree_link l)
   return f;
 }
 
-/* The motion of the link while its parent moves so. */
+/* The motion of the link while its parent moves so and nothing pushes the joint. */
 SHARED spatial_motion motion_of_follower(const following_joint *f, spatial_motion parent)
 {
   spatial_motion at_b = motion_at(parent, f->joint.from_parent);

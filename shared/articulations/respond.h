@@ -13,6 +13,19 @@
 
 #include "shared/articulations/factor.h"
 
+/* A joint with its factor: what walks read of it. That of a ball, which is long and which few trees have, is read where
+ * it is needed. */
+typedef struct {
+  placed_joint joint;
+  single_factor single; /* of a joint with one degree of freedom */
+} factored_joint;
+
+SHARED factored_joint load_factored_joint(const articulation *t, tree_link l)
+{
+  factored_joint f = {load_placed_joint(t, l), load_single_factor(t, l)};
+  return f;
+}
+
 /* How fast the joint moves by what it takes of an impulse, were its parent held: numbers of its velocity for one degree
  * of freedom (x alone), a vector of the world for a ball. */
 typedef struct {
@@ -20,42 +33,41 @@ typedef struct {
   spatial_force rest; /* for the parent, at its centre */
 } joint_share;
 
-SHARED joint_share share_of_single(const articulation *t, tree_link l, placed_joint j, spatial_force at_b, real push)
+SHARED joint_share share_of_single(tree_link l, const factored_joint *f, spatial_force at_b, real push)
 {
-  single_factor f = load_single_factor(t, l);
-  real y = (push + power_of(at_b, axis_motion(l, j))) * f.inverse;
-  joint_share s = {make_vec3(y, R(0.0), R(0.0)), subtract_forces(at_b, scaled_force(f.u, y))};
+  real y = (push + power_of(at_b, axis_motion(l, f->joint))) * f->single.inverse;
+  joint_share s = {make_vec3(y, R(0.0), R(0.0)), subtract_forces(at_b, scaled_force(f->single.u, y))};
   return s;
 }
-SHARED joint_share share_of_ball(const articulation *t, tree_link l, placed_joint j, spatial_force at_b, vec3 push)
+SHARED joint_share share_of_ball(const ball_factor *f, placed_joint j, spatial_force at_b, vec3 push)
 {
-  ball_factor f = load_ball_factor(t, l);
   vec3 turns = add(push, at_b.moment);
   joint_share s;
-  s.pending = symmetric_times(f.inverse, turns);
+  s.pending = symmetric_times(f->inverse, turns);
   s.rest.moment = subtract(scale(s.pending, j.implicit_inertia), push);
-  s.rest.force = subtract(at_b.force, transposed_times(f.g, turns));
+  s.rest.force = subtract(at_b.force, transposed_times(f->g, turns));
   return s;
 }
 
 /* at_center: an impulse on the link. push: one of the joint itself, in its numbers, of a ball in axes of the world. */
-SHARED joint_share share_of_joint(const articulation *t, tree_link l, placed_joint j, spatial_force at_center,
+SHARED joint_share share_of_joint(const articulation *t, tree_link l, const factored_joint *f, spatial_force at_center,
                                   vec3 push)
 {
-  spatial_force at_b = force_at(at_center, negate(j.to_center));
+  spatial_force at_b = force_at(at_center, negate(f->joint.to_center));
   joint_share s = {zero3(), at_b};
-  mask one = has_one_freedom(l);
+  mask one = has_one_freedom(l), ball = l.is_ball;
   if (any_of(one)) {
-    joint_share single = share_of_single(t, l, j, at_b, push.x);
+    joint_share single = share_of_single(l, f, at_b, push.x);
     s.pending = choose3(one, single.pending, s.pending);
     s.rest = choose_force(one, single.rest, s.rest);
   }
-  if (any_of(l.is_ball)) {
-    joint_share ball = share_of_ball(t, l, j, at_b, push);
-    s.pending = choose3(l.is_ball, ball.pending, s.pending);
-    s.rest = choose_force(l.is_ball, ball.rest, s.rest);
+  if (any_of(ball)) {
+    ball_factor factor = load_ball_factor(t, l);
+    joint_share of_ball = share_of_ball(&factor, f->joint, at_b, push);
+    s.pending = choose3(ball, of_ball.pending, s.pending);
+    s.rest = choose_force(ball, of_ball.rest, s.rest);
   }
-  s.rest = force_at(s.rest, negate(j.from_parent));
+  s.rest = force_at(s.rest, negate(f->joint.from_parent));
   return s;
 }
 
@@ -72,17 +84,15 @@ SHARED vec3 change_of_ball(const ball_factor *f, placed_joint j, spatial_motion 
 }
 
 /* The same of a joint that has been pushed. */
-SHARED vec3 joint_change(const articulation *t, tree_link l, placed_joint j, spatial_motion at_b, vec3 pending)
+SHARED vec3 joint_change(const articulation *t, tree_link l, const factored_joint *f, spatial_motion at_b, vec3 pending)
 {
   vec3 change = zero3();
-  mask one = has_one_freedom(l);
-  if (any_of(one)) {
-    single_factor f = load_single_factor(t, l);
-    change = choose3(one, make_vec3(pending.x + change_of_single(&f, at_b), R(0.0), R(0.0)), change);
-  }
-  if (any_of(l.is_ball)) {
-    ball_factor f = load_ball_factor(t, l);
-    change = choose3(l.is_ball, add(pending, change_of_ball(&f, j, at_b)), change);
+  mask one = has_one_freedom(l), ball = l.is_ball;
+  if (any_of(one))
+    change = choose3(one, make_vec3(pending.x + change_of_single(&f->single, at_b), R(0.0), R(0.0)), change);
+  if (any_of(ball)) {
+    ball_factor factor = load_ball_factor(t, l);
+    change = choose3(ball, add(pending, change_of_ball(&factor, f->joint, at_b)), change);
   }
   return change;
 }
@@ -97,23 +107,29 @@ SHARED spatial_force pending_share(tree_link l, joint_share s, spatial_force at_
 SHARED spatial_force load_pending(const articulation *t, shape_uint k) { return load_force(t, k, (uint)WORK_PENDING); }
 
 /* The change of a free root, all of whose impulses are pending. */
-SHARED spatial_motion free_root_change(const articulation *t, tree_link l)
+SHARED spatial_motion free_root_change(const articulation *t, tree_link l, spatial_force pending)
 {
   symmetric6 inverse = load_symmetric6(t, l.k);
-  return inverse_times(&inverse, load_pending(t, l.k));
+  return inverse_times(&inverse, pending);
 }
 
-/* parent: its change. *change: of the joint, as pending has it. */
-SHARED spatial_motion link_change(const articulation *t, tree_link l, spatial_motion parent, vec3 *change)
+/* The change of a link, and of its joint as pending has it. */
+typedef struct {
+  spatial_motion link;
+  vec3 joint;
+} pending_motion;
+
+/* parent: its change. */
+SHARED pending_motion link_change(const articulation *t, tree_link l, const factored_joint *f, spatial_force pending,
+                                  spatial_motion parent)
 {
-  placed_joint j = load_placed_joint(t, l);
-  spatial_motion at_b = motion_at(parent, j.from_parent);
-  *change = joint_change(t, l, j, at_b, load_pending(t, l.k).moment);
-  vec3 world = choose3(has_one_freedom(l), scale(xyz(j.frame), change->x), *change);
+  pending_motion m;
+  spatial_motion at_b = motion_at(parent, f->joint.from_parent);
+  m.joint = joint_change(t, l, f, at_b, pending.moment);
+  vec3 world = choose3(has_one_freedom(l), scale(xyz(f->joint.frame), m.joint.x), m.joint);
   spatial_motion own = joint_motion(l, world, zero3());
-  spatial_motion m = {add(at_b.angular, own.angular), add(at_b.linear, own.linear)};
-  m = motion_at(m, j.to_center);
-  if (any_of(l.is_free)) m = choose_motion(l.is_free, free_root_change(t, l), m);
+  m.link = motion_at(add_motions(at_b, own), f->joint.to_center);
+  if (any_of(l.is_free)) m.link = choose_motion(l.is_free, free_root_change(t, l, pending), m.link);
   return m;
 }
 
@@ -126,7 +142,8 @@ CALLED void push_link_if(mask wanted, const articulation *tree, uint_lanes k, co
   spatial_force at_center = *impulse;
   while (any_of(wanted)) {
     tree_link l = tree_link_of(t, k);
-    joint_share s = share_of_joint(t, l, load_placed_joint(t, l), at_center, zero3());
+    factored_joint f = load_factored_joint(t, l);
+    joint_share s = share_of_joint(t, l, &f, at_center, zero3());
     add_to_force(wanted, t, k, (uint)WORK_PENDING, pending_share(l, s, at_center));
     wanted = wanted & !l.is_root;
     k = choose(wanted, l.parent, k);
@@ -161,8 +178,8 @@ CALLED void find_pending_change(const articulation *tree, uint_lanes k, spatial_
   spatial_motion m = no_motion();
   while (any_of(wanted)) {
     tree_link l = tree_link_of(t, at);
-    vec3 of_joint;
-    m = choose_motion(wanted, link_change(t, l, m, &of_joint), m);
+    factored_joint f = load_factored_joint(t, l);
+    m = choose_motion(wanted, link_change(t, l, &f, load_pending(t, l.k), m).link, m);
     uint_lanes following = load_uint_of_row(t->next, tree_row(t, 1u, l.k, 0u));
     wanted = wanted & (following != at);
     at = choose(wanted, following, at);
@@ -178,54 +195,115 @@ SHARED spatial_motion pending_change(const articulation *t, uint_lanes k)
 }
 
 /* --- all links ------------------------------------------------------------------------------------------------ */
-/* The pending numbers of the joint's velocity. */
-SHARED vec3 change_in_numbers(tree_link l, placed_joint j, vec3 change)
+/* A link as a walk that settles its tree leaves it: what has been pending, and the numbers of its joint's velocity. */
+typedef struct {
+  spatial_motion change;
+  vec3 numbers;
+} settled_joint;
+
+/* What is pending becomes velocities of the joint. parent: its change. */
+SHARED settled_joint settle_joint(const articulation *t, tree_link l, const factored_joint *f, spatial_motion parent)
 {
-  return choose3(l.is_ball, numbers_of_vector(l, j.frame, change), change);
+  spatial_force pending = load_pending(t, l.k);
+  vec4 velocity = load_state(t, l.k, (uint)STATE_JOINT_VELOCITY);
+  pending_motion m = link_change(t, l, f, pending, parent);
+  vec3 change = m.joint;
+  if (any_of(l.is_ball)) change = choose3(l.is_ball, numbers_of_vector(l, f->joint.frame, change), change);
+  change = choose3(l.is_free, m.link.angular, change);
+  settled_joint s = {m.link, add(xyz(velocity), change)};
+  store_motion(l.exists, t, l.k, (uint)WORK_CHANGE, s.change);
+  store_state(l.exists, t, l.k, (uint)STATE_JOINT_VELOCITY, extend(s.numbers, velocity.w));
+  if (!any_of(l.is_free)) return s;
+  vec4 linear = load_root(t, (uint)ROOT_LINEAR_VELOCITY);
+  store_root(l.exists & l.is_free, t, (uint)ROOT_LINEAR_VELOCITY, extend(add(xyz(linear), s.change.linear), linear.w));
+  return s;
 }
 
-SHARED void settle_link(const articulation *t, tree_link l)
+/* What a walk that settles a tree knows of a link: its change, its velocity, and the speed of its joint. */
+typedef struct {
+  spatial_motion change, velocity;
+  vec3 numbers;
+} settled_link;
+
+SHARED settled_link resting_ground(void)
 {
-  vec3 change;
-  spatial_motion m = link_change(t, l, load_parent_motion(t, l, (uint)WORK_CHANGE), &change);
-  store_motion(l.exists, t, l.k, (uint)WORK_CHANGE, m);
-  change = choose3(l.is_free, m.angular, change_in_numbers(l, load_placed_joint(t, l), change));
-  vec4 velocity = load_state(t, l.k, (uint)STATE_JOINT_VELOCITY);
-  store_state(l.exists, t, l.k, (uint)STATE_JOINT_VELOCITY, extend(add(xyz(velocity), change), velocity.w));
-  spatial_motion old = load_motion(t, l.k, (uint)WORK_VELOCITY);
-  spatial_motion now = {add(old.angular, m.angular), add(old.linear, m.linear)};
-  store_motion(l.exists, t, l.k, (uint)WORK_VELOCITY, now);
+  settled_link g = {no_motion(), no_motion(), zero3()};
+  return g;
+}
+
+/* Link k, of which then nothing is pending. before: link k - 1. */
+SHARED settled_link settle_link(const articulation *t, tree_link l, uint k, const settled_link *before)
+{
+  factored_joint f = load_factored_joint(t, l);
+  spatial_motion parent = motion_of_parent(t, l, k, before->change, (uint)WORK_CHANGE),
+                 old = load_motion(t, l.k, (uint)WORK_VELOCITY);
+  settled_joint joint = settle_joint(t, l, &f, parent);
+  settled_link s = {joint.change, add_motions(old, joint.change), joint.numbers};
+  store_motion(l.exists, t, l.k, (uint)WORK_VELOCITY, s.velocity);
   store_force(l.exists, t, l.k, (uint)WORK_PENDING, no_force());
-  if (!any_of(l.is_free)) return;
-  vec4 linear = load_root(t, (uint)ROOT_LINEAR_VELOCITY);
-  store_root(l.exists & l.is_free, t, (uint)ROOT_LINEAR_VELOCITY, extend(add(xyz(linear), m.linear), linear.w));
+  return s;
 }
 
 CALLED void settle_tree_if(mask wanted, const articulation *tree)
 {
   articulation own = *tree;
   const articulation *t = &own;
+  settled_link s = resting_ground();
   for (uint k = 0; k < t->most_links; ++k) {
     tree_link l = tree_link_of(t, k);
     l.exists = l.exists & wanted;
-    settle_link(t, l);
+    s = settle_link(t, l, k, &s);
   }
 }
 SHARED void settle_tree(const articulation *t) { settle_tree_if(has_links(t), t); }
 
+/* What a link passes on to link k - 1, if that is its parent. */
+typedef struct {
+  mask follows;
+  spatial_force rest;
+} passed_force;
+
+SHARED passed_force nothing_passed(const articulation *t)
+{
+  passed_force p = {has_links(t) & !has_links(t), no_force()};
+  return p;
+}
+
+/* push: of the joint of link k. beyond: of link k + 1; what others pass on is in WORK_FORCE. */
+SHARED passed_force pass_force_inward(const articulation *t, tree_link l, uint k, vec3 push, const passed_force *beyond)
+{
+  factored_joint f = load_factored_joint(t, l);
+  spatial_force at_center = load_force(t, l.k, (uint)WORK_FORCE);
+  at_center = choose_force(beyond->follows, add_forces(at_center, beyond->rest), at_center);
+  joint_share s = share_of_joint(t, l, &f, at_center, push);
+  store_force(l.exists, t, l.k, (uint)WORK_PENDING, pending_share(l, s, at_center));
+  mask inner = l.exists & !l.is_root;
+  passed_force passed = {inner & follows_at_once(l, k), s.rest};
+  mask apart = inner & !passed.follows;
+  if (any_of(apart)) add_to_force(apart, t, l.parent, (uint)WORK_FORCE, s.rest);
+  return passed;
+}
+
 /* Takes the impulses on all links, WORK_FORCE, and those of all joints, WORK_PENDING (of a ball in axes of the world,
  * of a free root none), to what is pending. The settled tree has then the velocities after these impulses. */
-CALLED void push_all_links(const articulation *tree)
+CALLED void push_links_and_joints(const articulation *tree)
 {
   articulation own = *tree;
   const articulation *t = &own;
+  passed_force passed = nothing_passed(t);
   for (uint n = t->most_links; n > 0u; --n) {
     tree_link l = tree_link_of(t, n - 1u);
-    spatial_force at_center = load_force(t, l.k, (uint)WORK_FORCE);
-    joint_share s = share_of_joint(t, l, load_placed_joint(t, l), at_center, load_pending(t, l.k).moment);
-    store_force(l.exists, t, l.k, (uint)WORK_PENDING, pending_share(l, s, at_center));
-    add_to_force(l.exists & !l.is_root, t, l.parent, (uint)WORK_FORCE, s.rest);
+    passed = pass_force_inward(t, l, n - 1u, load_pending(t, l.k).moment, &passed);
   }
+}
+/* The same where no joint is pushed, whatever WORK_PENDING has. */
+CALLED void push_links(const articulation *tree)
+{
+  articulation own = *tree;
+  const articulation *t = &own;
+  passed_force passed = nothing_passed(t);
+  for (uint n = t->most_links; n > 0u; --n)
+    passed = pass_force_inward(t, tree_link_of(t, n - 1u), n - 1u, zero3(), &passed);
 }
 
 #endif

@@ -16,14 +16,21 @@
 #include "shared/articulations/loads.h"
 #include "shared/articulations/sweep.h"
 
-/* Without its implicit drive, which is no row. */
-SHARED joint_axis axis_of_rows(const articulation *t, tree_link l)
+/* What the rows of a joint need, without its implicit drive, which is no row. kept: their impulses. */
+typedef struct {
+  joint_axis axis;
+  vec4 kept;
+  real value, speed; /* speed: when the tree was settled */
+} joint_rows;
+
+SHARED joint_rows load_joint_rows(const articulation *t, tree_link l)
 {
-  joint_axis a = load_tree_axis(t, l);
   mask implicit = load_link(t, l.k, (uint)LINK_MOMENTS).w > R(0.0);
-  a.stiffness = zero_if(implicit, a.stiffness);
-  a.damping = zero_if(implicit, a.damping);
-  return a;
+  joint_rows r = {load_tree_axis(t, l), load_state(t, l.k, (uint)STATE_ROW_IMPULSE),
+                  load_state(t, l.k, (uint)STATE_JOINT_POSITION).x, load_state(t, l.k, (uint)STATE_JOINT_VELOCITY).x};
+  r.axis.stiffness = zero_if(implicit, r.axis.stiffness);
+  r.axis.damping = zero_if(implicit, r.axis.damping);
+  return r;
 }
 
 /* rad/s and m/s. A stop is in reach if the joint gets there in the substep with twice its speed and this much more. */
@@ -52,23 +59,24 @@ SHARED mask has_row_in_reach(GLOBAL const Parameters *parameters, const joint_ax
 }
 
 /* Whether the joint passes a stop in this substep that has done nothing to it so far. */
-SHARED mask has_late_row(GLOBAL const Parameters *parameters, const joint_axis *a, const axis_row *r, real limit)
+SHARED mask has_late_row(GLOBAL const Parameters *parameters, real lower, real upper, real value, real speed,
+                         real limit)
 {
-  real end = r->at.value + r->speed * parameters->substep;
-  return ((end < a->lower) | (end > a->upper)) & (limit == R(0.0));
+  real end = value + speed * parameters->substep;
+  return ((end < lower) | (end > upper)) & (limit == R(0.0));
 }
 
 /* change: of the velocity of the joint since the tree was settled. */
-SHARED axis_row row_of_link(const articulation *t, tree_link l, real change)
+SHARED axis_row row_of_joint_axis(const joint_rows *of, const single_factor *factor, real change)
 {
   axis_row r;
-  r.at.value = load_state(t, l.k, (uint)STATE_JOINT_POSITION).x;
+  r.at.value = of->value;
   r.at.direction = r.at.turn = r.moment_a = r.moment_b = zero3();
-  r.response = r.shared_response = load_single_factor(t, l).response;
+  r.response = r.shared_response = factor->response;
   r.mass = inverse_if_positive(r.response);
   r.leak = R(1.0);
   r.crowded = never_crowded();
-  r.speed = load_state(t, l.k, (uint)STATE_JOINT_VELOCITY).x + change;
+  r.speed = of->speed + change;
   return r;
 }
 
@@ -76,21 +84,21 @@ SHARED axis_row row_of_link(const articulation *t, tree_link l, real change)
 enum { ROWS_IN_REACH, ROWS_FOUND_LATE };
 
 /* At a link at which the sweep has arrived. Whether the rows have pushed. */
-SHARED mask solve_rows_at_link(GLOBAL const Parameters *parameters, const articulation *t, tree_link l, real change,
+SHARED mask solve_rows_at_link(GLOBAL const Parameters *parameters, const articulation *t, tree_link l, visited_link *v,
                                uint pass, uint which)
 {
   mask wanted = l.exists & has_one_freedom(l), pushes = wanted & !wanted;
   if (!any_of(wanted)) return pushes;
-  axis_row r = row_of_link(t, l, change);
-  joint_axis axis = axis_of_rows(t, l);
-  vec4 kept = load_state(t, l.k, (uint)STATE_ROW_IMPULSE);
-  wanted = wanted & (which == (uint)ROWS_IN_REACH ? has_row_in_reach(parameters, &axis, &r, kept.y, pass)
-                                                  : has_late_row(parameters, &axis, &r, kept.y));
+  joint_rows rows = load_joint_rows(t, l);
+  axis_row r = row_of_joint_axis(&rows, &v->joint.single, v->change.joint.x);
+  wanted = wanted & (which == (uint)ROWS_IN_REACH ? has_row_in_reach(parameters, &rows.axis, &r, rows.kept.y, pass)
+                                                  : has_late_row(parameters, rows.axis.lower, rows.axis.upper,
+                                                                 r.at.value, r.speed, rows.kept.y));
   if (!any_of(wanted)) return pushes;
-  real sum = solve_rows_of_axis(parameters, &r, &axis, &kept, pass);
-  store_state(wanted, t, l.k, (uint)STATE_ROW_IMPULSE, kept);
+  real sum = solve_rows_of_axis(parameters, &r, &rows.axis, &rows.kept, pass);
+  store_state(wanted, t, l.k, (uint)STATE_ROW_IMPULSE, rows.kept);
   pushes = wanted & (sum != R(0.0));
-  if (any_of(pushes)) push_joint_on_way_if(pushes, t, l, sum);
+  if (any_of(pushes)) push_joint_on_way_if(pushes, t, l, v, sum);
   return pushes;
 }
 
@@ -101,27 +109,33 @@ CALLED mask sweep_rows_if(mask wanted, GLOBAL const Parameters *parameters, cons
   articulation own = *tree;
   const articulation *t = &own;
   mask pushed = wanted & !wanted;
+  spatial_motion before = no_motion();
   for (uint k = 0; k < t->most_links; ++k) {
     tree_link l = go_to_link_if(wanted, t, k);
-    vec3 change = arrive_at_link(t, l);
-    pushed = pushed | solve_rows_at_link(parameters, t, l, change.x, pass, which);
+    visited_link v;
+    arrive_at_link(t, l, k, before, &v);
+    pushed = pushed | solve_rows_at_link(parameters, t, l, &v, pass, which);
+    store_visit(t, l, &v);
+    before = v.change.link;
   }
   end_sweep_if(wanted, t);
   return pushed;
 }
 
+/* Of a settled link. */
+SHARED mask joint_has_late_row(GLOBAL const Parameters *parameters, const articulation *t, tree_link l)
+{
+  vec4 range = load_row(t->range, tree_row(t, 1u, l.k, 0u));
+  real value = load_state(t, l.k, (uint)STATE_JOINT_POSITION).x, speed = load_joint_velocity(t, l).x;
+  return l.exists & has_one_freedom(l) &
+         has_late_row(parameters, range.x, range.y, value, speed, load_state(t, l.k, (uint)STATE_ROW_IMPULSE).y);
+}
 CALLED mask has_rows_found_late(GLOBAL const Parameters *parameters, const articulation *tree)
 {
   articulation own = *tree;
   const articulation *t = &own;
   mask late = has_links(t) & !has_links(t);
-  for (uint k = 0; k < t->most_links; ++k) {
-    tree_link l = tree_link_of(t, k);
-    axis_row r = row_of_link(t, l, R(0.0));
-    joint_axis axis = load_tree_axis(t, l);
-    mask one = l.exists & has_one_freedom(l);
-    late = late | (one & has_late_row(parameters, &axis, &r, load_state(t, l.k, (uint)STATE_ROW_IMPULSE).y));
-  }
+  for (uint k = 0; k < t->most_links; ++k) late = late | joint_has_late_row(parameters, t, tree_link_of(t, k));
   return late;
 }
 

@@ -20,37 +20,34 @@ SHARED void begin_articulations_item(GLOBAL const Parameters *parameters, read_l
   articulation t = articulation_at(links, states, (uint_lanes)i);
   for (uint word = 0u; word < TREE_COLOR_WORDS; ++word)
     store_uint(states.colors, TREE_COLOR_WORDS * (uint_lanes)i + word, (uint_lanes)0u);
-  read_articulation(links, bodies, &t);
-  prepare_tree(&t, parameters->substep);
+  read_articulation(links, bodies, &t, parameters->substep);
+  factor_tree(&t);
+  invert_link_inertias(&t);
   write_bodies(links, bodies, &t, moved);
 }
 
-/* Adds what pushes a link besides the gravity that all links have: the force on its body, and the share of gravity by
- * which its factor differs from 1. has_forces: whether the scene has forces. */
-SHARED void load_body_force(read_links links, GLOBAL const float4 *body_mass, GLOBAL const float4 *solver_force,
-                            const articulation *t, tree_link l, vec3 gravity, uint has_forces)
+/* What pushes a link besides the gravity that all links have: from outside, the force on its body, and the share of
+ * gravity by which its factor differs from 1. has_forces: whether the scene has forces. */
+SHARED spatial_force load_body_force(read_links links, GLOBAL const float4 *body_mass,
+                                     GLOBAL const float4 *solver_force, const articulation *t, tree_link l,
+                                     vec3 gravity, uint has_forces)
 {
   uint_lanes body = body_of_link(links, t, l.k);
-  vec3 force = xyz(load_state(t, l.k, (uint)STATE_FORCE)), moment = xyz(load_state(t, l.k, (uint)STATE_MOMENT));
-  force = add_scaled(force, gravity, mass_of_link(t, l) * (load_float4(body_mass, body).w - R(1.0)));
-  if (has_forces) {
-    force = add(force, xyz(load_float4(solver_force, body * 2u)));
-    moment = add(moment, xyz(load_float4(solver_force, body * 2u + 1u)));
-  }
-  store_state(l.exists, t, l.k, (uint)STATE_FORCE, extend(force, R(0.0)));
-  store_state(l.exists, t, l.k, (uint)STATE_MOMENT, extend(moment, R(0.0)));
+  spatial_force f = load_outside_force(t, l);
+  f.force = add_scaled(f.force, gravity, mass_of_link(t, l) * (load_float4(body_mass, body).w - R(1.0)));
+  if (!has_forces) return f;
+  f.force = add(f.force, xyz(load_float4(solver_force, body * 2u)));
+  f.moment = add(f.moment, xyz(load_float4(solver_force, body * 2u + 1u)));
+  return f;
 }
 
 /* STATE_FORCE and STATE_MOMENT hold what the contacts of the last substep pushed with; those of this one are gathered
  * anew. */
-SHARED void clear_outer_forces(const articulation *t)
+SHARED void clear_outer_force(const articulation *t, tree_link l)
 {
   vec4 none = extend(zero3(), R(0.0));
-  for (uint k = 0; k < t->most_links; ++k) {
-    tree_link l = tree_link_of(t, k);
-    store_state(l.exists, t, l.k, (uint)STATE_FORCE, none);
-    store_state(l.exists, t, l.k, (uint)STATE_MOMENT, none);
-  }
+  store_state(l.exists, t, l.k, (uint)STATE_FORCE, none);
+  store_state(l.exists, t, l.k, (uint)STATE_MOMENT, none);
 }
 
 SHARED void accelerate_articulations_item(GLOBAL const Parameters *parameters, read_links links,
@@ -60,10 +57,14 @@ SHARED void accelerate_articulations_item(GLOBAL const Parameters *parameters, r
 {
   articulation t = articulation_at(links, states, (uint_lanes)i);
   vec3 gravity = gravity_at(parameters, body_gravity, body_of_link(links, &t, 0u));
-  for (uint k = 0; k < t.most_links; ++k)
-    load_body_force(links, body_mass, solver_force, &t, tree_link_of(&t, k), gravity, has_forces);
-  accelerate_tree(&t, gravity, parameters->substep);
-  clear_outer_forces(&t);
+  for (uint k = 0; k < t.most_links; ++k) {
+    tree_link l = tree_link_of(&t, k);
+    spatial_force f = load_body_force(links, body_mass, solver_force, &t, l, gravity, has_forces);
+    load_forces_of_link(&t, l, with_weight(&t, l, f, gravity), parameters->substep);
+    clear_outer_force(&t, l);
+  }
+  push_links_and_joints(&t);
+  settle_tree(&t);
   write_velocities(links, &t, solver_velocity);
 }
 
@@ -83,6 +84,7 @@ SHARED mask tree_falls_freely(read_links links, GLOBAL const float4 *body_mass, 
                               const articulation *t)
 {
   mask falls = tree_link_of(t, 0u).is_free & !is_pushed(t) & has_links(t);
+  if (!any_of(falls)) return falls;
   for (uint k = 0; k < t->most_links; ++k) {
     tree_link l = tree_link_of(t, k);
     uint_lanes body = body_of_link(links, t, l.k);

@@ -18,39 +18,57 @@
 
 #include "shared/articulations/respond.h"
 
-/* An impulse on a link at which the sweep is, or on one beyond which it is. */
-SHARED void push_on_way_if(mask wanted, const articulation *t, shape_uint k, spatial_force impulse)
+/* An impulse on a link at which the sweep is, or on one beyond which it is. change: of the link before; that after. */
+SHARED spatial_motion push_visited_if(mask wanted, const articulation *t, shape_uint k, spatial_motion change,
+                                      spatial_force impulse)
 {
   symmetric6 inverse = load_symmetric6(t, k);
-  spatial_motion change = add_motions(load_motion(t, k, (uint)WORK_CHANGE), inverse_times(&inverse, impulse));
-  store_motion(wanted, t, k, (uint)WORK_CHANGE, change);
+  spatial_motion pushed = add_motions(change, inverse_times(&inverse, impulse));
+  store_motion(wanted, t, k, (uint)WORK_CHANGE, pushed);
   add_to_force(wanted, t, k, (uint)WORK_FORCE, impulse);
+  return choose_motion(wanted, pushed, change);
+}
+SHARED void push_on_way_if(mask wanted, const articulation *t, shape_uint k, spatial_force impulse)
+{
+  push_visited_if(wanted, t, k, load_motion(t, k, (uint)WORK_CHANGE), impulse);
 }
 
-/* The change of the joint; numbers as pending has them. */
-SHARED vec3 follow_parent(const articulation *t, tree_link l)
-{
-  vec3 change;
-  store_motion(l.exists, t, l.k, (uint)WORK_CHANGE,
-               link_change(t, l, load_parent_motion(t, l, (uint)WORK_CHANGE), &change));
-  return change;
-}
+/* A link at which the sweep has arrived. parent: the change of its parent. */
+typedef struct {
+  factored_joint joint;
+  spatial_force pending;
+  spatial_motion parent;
+  pending_motion change;
+} visited_link;
 
-SHARED vec3 arrive_at_link(const articulation *t, tree_link l)
+/* before: the change of link k - 1. */
+SHARED void arrive_at_link(const articulation *t, tree_link l, uint k, spatial_motion before, visited_link *v)
 {
-  store_force(l.exists, t, l.k, (uint)WORK_FORCE, no_force());
-  return follow_parent(t, l);
+  v->joint = load_factored_joint(t, l);
+  v->pending = load_pending(t, l.k);
+  v->parent = motion_of_parent(t, l, k, before, (uint)WORK_CHANGE);
+  v->change = link_change(t, l, &v->joint, v->pending, v->parent);
 }
 
 /* An impulse of the joint at which the sweep has arrived, in its numbers; of one degree of freedom. */
-SHARED void push_joint_on_way_if(mask wanted, const articulation *t, tree_link l, real impulse)
+SHARED void push_joint_on_way_if(mask wanted, const articulation *t, tree_link l, visited_link *v, real impulse)
 {
-  joint_share s = share_of_joint(t, l, load_placed_joint(t, l), no_force(), make_vec3(impulse, R(0.0), R(0.0)));
-  spatial_force pending = {s.pending, zero3()};
-  add_to_force(wanted, t, l.k, (uint)WORK_PENDING, pending);
-  push_on_way_if(wanted & !l.is_root, t, l.parent, s.rest);
-  l.exists = wanted;
-  follow_parent(t, l);
+  joint_share s = share_of_joint(t, l, &v->joint, no_force(), make_vec3(impulse, R(0.0), R(0.0)));
+  spatial_force of_joint = {s.pending, zero3()};
+  v->pending = choose_force(wanted, add_forces(v->pending, of_joint), v->pending);
+  store_force(wanted, t, l.k, (uint)WORK_PENDING, v->pending);
+  mask inner = wanted & !l.is_root;
+  if (any_of(inner)) v->parent = push_visited_if(inner, t, l.parent, v->parent, s.rest);
+  pending_motion change = link_change(t, l, &v->joint, v->pending, v->parent);
+  v->change.link = choose_motion(wanted, change.link, v->change.link);
+  v->change.joint = choose3(wanted, change.joint, v->change.joint);
+}
+
+/* Before the sweep goes on. */
+SHARED void store_visit(const articulation *t, tree_link l, const visited_link *v)
+{
+  store_motion(l.exists, t, l.k, (uint)WORK_CHANGE, v->change.link);
+  store_force(l.exists, t, l.k, (uint)WORK_FORCE, no_force());
 }
 
 SHARED void leave_link_if(mask wanted, const articulation *t, tree_link l)
@@ -58,7 +76,8 @@ SHARED void leave_link_if(mask wanted, const articulation *t, tree_link l)
   spatial_force pushed = load_force(t, l.k, (uint)WORK_FORCE);
   wanted = wanted & (is_nonzero(pushed.force) | is_nonzero(pushed.moment));
   if (!any_of(wanted)) return;
-  joint_share s = share_of_joint(t, l, load_placed_joint(t, l), pushed, zero3());
+  factored_joint f = load_factored_joint(t, l);
+  joint_share s = share_of_joint(t, l, &f, pushed, zero3());
   add_to_force(wanted, t, l.k, (uint)WORK_PENDING, pending_share(l, s, pushed));
   push_on_way_if(wanted & !l.is_root, t, l.parent, s.rest);
 }

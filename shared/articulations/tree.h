@@ -142,10 +142,20 @@ SHARED void store_symmetric6(mask wanted, const articulation *t, shape_uint k, s
   for (uint row = 0; row < 6u; ++row) store_work(wanted, t, k, (uint)WORK_INERTIA + row, p.row[row]);
 }
 
-/* The motion of the parent; of a root, that of the ground. */
-SHARED spatial_motion load_parent_motion(const articulation *t, tree_link l, uint row)
+/* --- walks ---------------------------------------------------------------------------------------------------- */
+/* Memory answers late, and a walk waits for it link by link. So what a walk needs of a link it reads before it writes
+ * anything of the link, and most links follow their parent at once: what the walk has found at link k - 1 need not come
+ * from memory for link k. */
+SHARED mask follows_at_once(tree_link l, uint k) { return l.parent == (uint_lanes)(k - 1u); }
+
+/* The motion of the parent of link k; of a root, that of the ground. before: that of link k - 1, which has been stored,
+ * too. */
+SHARED spatial_motion motion_of_parent(const articulation *t, tree_link l, uint k, spatial_motion before, uint row)
 {
-  return choose_motion(l.is_root, no_motion(), load_motion(t, l.parent, row));
+  mask follows = follows_at_once(l, k);
+  if (!any_of(!follows)) return before;
+  spatial_motion loaded = choose_motion(l.is_root, no_motion(), load_motion(t, l.parent, row));
+  return choose_motion(follows, before, loaded);
 }
 
 /* A joint as it stands now. from_parent and to_center meet at its frame b, the point about which it turns. */

@@ -223,13 +223,16 @@ TEST_CASE("articulations: a sweep sees at each link and joint all that it has pu
     Column expected = inverse * dense.jacobian().middleRows<6>(6 * int(pushed)).transpose() * first;
     for (uint k = 0; k < tree.t.links; ++k) {
       const tree_link l = go_to_link_if(true, &tree.t, k);
-      const double change = arrive_at_link(&tree.t, l).x;
+      visited_link v;
+      arrive_at_link(&tree.t, l, k, k > 0 ? load_motion(&tree.t, k - 1, WORK_CHANGE) : no_motion(), &v);
+      const double change = v.change.joint.x;
       const auto jacobian = dense.jacobian().middleRows<6>(6 * int(k));
       if (has_one_freedom(l)) {
         CHECK(change == Approx(expected[c.model.first(k)]).margin(1e-10));
-        push_joint_on_way_if(true, &tree.t, l, 0.3);
+        push_joint_on_way_if(true, &tree.t, l, &v, 0.3);
         expected += 0.3 * inverse.col(c.model.first(k));
       }
+      store_visit(&tree.t, l, &v);
       CHECK((six(load_motion(&tree.t, k, WORK_CHANGE)) - jacobian * expected).norm() < 1e-10);
       if (random.below(2) == 0) continue;
       const Column impulse = random_column(random, 6);

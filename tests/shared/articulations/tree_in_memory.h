@@ -132,7 +132,7 @@ public:
     const tree_tests::TreeState before = get();
     prepare_tree(&t, 0);
     load_inertial_forces(&t, 1);
-    push_all_links(&t);
+    push_links(&t);
     settle_tree(&t);
     const tree_tests::Column inertial = get().v - before.v;
     set(before);
