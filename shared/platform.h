@@ -53,6 +53,8 @@ typedef unsigned short half_word;
 /* A device waits for what an item reads, so loops that can read some records at once and then write them. A CPU would
  * only have more in registers than it has of these. */
 #define ROWS_AT_ONCE 4u
+/* And walks from record to record can read the next one while they work on this. */
+#define READS_AHEAD
 
 #else /* C or C++ on the CPU */
 

@@ -214,8 +214,10 @@ CALLED void read_articulation(read_links links, read_bodies bodies, const articu
   standing_link s = standing_ground();
   for (uint k = 0; k < t->most_links; ++k) {
     tree_link l = tree_link_of(t, k);
+    link_constants constants = load_link_constants(t, l);
+    constants.inertia = implicit_inertia_of(&constants, h);
     read_joint joint = read_link(links, bodies, t, l);
-    s = place_and_weigh_link(t, l, k, s, joint.position, joint.numbers, h);
+    s = place_and_weigh_link(t, l, k, &constants, s, joint.position, joint.numbers);
   }
 }
 

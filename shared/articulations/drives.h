@@ -35,11 +35,28 @@ SHARED joint_axis load_tree_axis(const articulation *t, tree_link l)
   return a;
 }
 
-/* implicit: whether the drive is, the fourth number of LINK_MOMENTS. armature: kg m^2, or kg. */
-SHARED real implicit_inertia_of(const articulation *t, tree_link l, real armature, real implicit, real h)
+/* What places a link. inertia: the implicit part of that of its joint. */
+typedef struct {
+  vec4 frame_a, orientation_a, frame_b, orientation_b, moments, drive;
+  real inertia;
+} link_constants;
+
+SHARED link_constants load_link_constants(const articulation *t, tree_link l)
 {
-  vec4 drive = load_link(t, l.k, (uint)LINK_AXIS);
-  return armature + choose(implicit > R(0.0), h * (drive.y + h * drive.x), (real)R(0.0));
+  link_constants c = {load_link(t, l.k, (uint)LINK_FRAME_A),
+                      load_link(t, l.k, (uint)LINK_FRAME_A_ORIENTATION),
+                      load_link(t, l.k, (uint)LINK_FRAME_B),
+                      load_link(t, l.k, (uint)LINK_FRAME_B_ORIENTATION),
+                      load_link(t, l.k, (uint)LINK_MOMENTS),
+                      load_link(t, l.k, (uint)LINK_AXIS),
+                      R(0.0)};
+  return c;
+}
+
+/* kg m^2, or kg; h: of the substep. */
+SHARED real implicit_inertia_of(const link_constants *c, real h)
+{
+  return c->frame_a.w + choose(c->moments.w > R(0.0), h * (c->drive.y + h * c->drive.x), (real)R(0.0));
 }
 
 /* The rotation vector of q: half a turn at most. */

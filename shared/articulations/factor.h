@@ -151,6 +151,18 @@ SHARED symmetric6 inertia_through_joint(const articulation *t, tree_link l, plac
   return symmetric6_at(through, negate(j.from_parent));
 }
 
+/* What a walk that factors a tree reads of a link. */
+typedef struct {
+  placed_joint joint;
+  symmetric6 inertia;
+} weighed_link;
+
+SHARED void load_weighed_link(const articulation *t, tree_link l, weighed_link *w)
+{
+  w->joint = load_placed_joint(t, l);
+  w->inertia = load_symmetric6(t, l.k);
+}
+
 /* From the inertias of single links in WORK_INERTIA to the factors of all joints; the inertia of a free root is
  * inverted. Of the other links, WORK_INERTIA has no articulated inertia. */
 CALLED void factor_tree(const articulation *tree)
@@ -159,12 +171,11 @@ CALLED void factor_tree(const articulation *tree)
   const articulation *t = &own;
   symmetric6 s = zero_symmetric6(), through = s;
   mask follows = has_links(t) & !has_links(t); /* link k + 1 */
+  BEGIN_WALK(weighed_link, load_weighed_link, t, t->most_links - 1u);
   for (uint n = t->most_links; n > 0u; --n) {
-    tree_link l = tree_link_of(t, n - 1u);
-    placed_joint j = load_placed_joint(t, l);
-    s = load_symmetric6(t, l.k);
-    s = choose_symmetric6(follows, add_symmetric6(s, through), s);
-    through = inertia_through_joint(t, l, j, s);
+    WALK_TO(weighed_link, load_weighed_link, t, n - 1u, n - 2u);
+    s = choose_symmetric6(follows, add_symmetric6(now.inertia, through), now.inertia);
+    through = inertia_through_joint(t, l, now.joint, s);
     mask inner = l.exists & !l.is_root;
     follows = inner & follows_at_once(l, n - 1u);
     mask apart = inner & !follows;

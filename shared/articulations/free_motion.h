@@ -54,16 +54,29 @@ CALLED void return_velocities_if(mask wanted, const articulation *tree)
 /* A walk over the links does all that needs no more than the parent, because it takes its time to come to a link rather
  * than to compute there. */
 
-/* What a walk of this half knows of a link. */
+/* What a round knows of a link. */
 typedef struct {
-  spatial_motion change;
-  circling_link moves;
+  spatial_motion change, velocity;
 } round_link;
 
 SHARED round_link round_ground(void)
 {
-  round_link g = {no_motion(), circling_ground()};
+  round_link g = {no_motion(), no_motion()};
   return g;
+}
+
+/* What the first walk reads of a link. */
+typedef struct {
+  circling_record moves;
+  vec4 start;
+  real armature;
+} starting_link;
+
+SHARED void load_starting_link(const articulation *t, tree_link l, starting_link *s)
+{
+  load_circling_record(t, l, &s->moves);
+  s->start = load_state(t, l.k, (uint)STATE_JOINT_VELOCITY);
+  s->armature = armature_of_link(t, l);
 }
 
 /* The forces of the first round; the energy before, as seen from a frame that moves so. */
@@ -73,28 +86,55 @@ CALLED void begin_first_half(const articulation *tree, real h, vec3 frame, real 
   const articulation *t = &own;
   real sum = R(0.0);
   circling_link c = circling_ground();
+  BEGIN_WALK(starting_link, load_starting_link, t, 0u);
   for (uint k = 0; k < t->most_links; ++k) {
-    tree_link l = tree_link_of(t, k);
-    sum = sum + load_energy_of_link(t, l, load_motion(t, l.k, (uint)WORK_VELOCITY), frame);
-    vec4 start = load_state(t, l.k, (uint)STATE_JOINT_VELOCITY);
-    c = load_inertial_force(t, l, k, &c, h);
-    store_work(l.exists, t, l.k, (uint)WORK_START, start);
+    WALK_TO(starting_link, load_starting_link, t, k, k + 1u);
+    sum = sum + choose(l.exists,
+                       energy_of_link(&now.moves.solid, now.moves.velocity, now.moves.numbers, now.armature, frame),
+                       (real)R(0.0));
+    c = leave_inertial_force(t, l, k, &now.moves, &c, h);
+    store_work(l.exists, t, l.k, (uint)WORK_START, now.start);
   }
   store_root(has_links(t), t, (uint)ROOT_START, load_root(t, (uint)ROOT_LINEAR_VELOCITY));
   *energy = sum;
 }
 
-/* The velocities that the pushes lead to, of link k. before: link k - 1. */
-SHARED settled_joint settle_and_move_link(const articulation *t, tree_link l, const factored_joint *f, uint k,
-                                          const round_link *before, moving_link *moves)
+/* What a round reads of a link. */
+typedef struct {
+  settling_joint joint;
+  solid_link solid;
+  vec4 start;
+  real armature;
+} rounding_link;
+
+SHARED void load_further_round(const articulation *t, tree_link l, rounding_link *r)
 {
-  settled_joint s = settle_joint(t, l, f, motion_of_parent(t, l, k, before->change, (uint)WORK_CHANGE));
-  moves->numbers = s.numbers;
-  moves->parent = motion_of_parent(t, l, k, before->moves.velocity, (uint)WORK_VELOCITY);
-  moves->own = link_velocity(l, f->joint, vector_of_numbers(l, f->joint.frame, s.numbers),
-                             linear_velocity_of_root(t, l), moves->parent);
-  store_motion(l.exists, t, l.k, (uint)WORK_VELOCITY, moves->own);
-  return s;
+  load_settling_joint(t, l, &r->joint);
+  r->solid = load_solid_link(t, l);
+  r->start = load_work(t, l.k, (uint)WORK_START);
+  r->armature = R(0.0);
+}
+SHARED void load_last_round(const articulation *t, tree_link l, rounding_link *r)
+{
+  load_settling_joint(t, l, &r->joint);
+  r->solid = load_solid_link(t, l);
+  r->start = extend(zero3(), R(0.0));
+  r->armature = armature_of_link(t, l);
+}
+
+/* The velocity that the pushes lead to, of link k; numbers: of its joint. before: link k - 1. */
+SHARED round_link settle_and_move_link(const articulation *t, tree_link l, uint k, const settling_joint *of,
+                                       const round_link *before, vec3 *numbers)
+{
+  round_link r = *before;
+  settled_joint s = settle_joint(t, l, of, motion_of_parent(t, l, k, before->change, (uint)WORK_CHANGE));
+  spatial_motion parent = motion_of_parent(t, l, k, before->velocity, (uint)WORK_VELOCITY);
+  *numbers = s.numbers;
+  r.change = s.change;
+  r.velocity = link_velocity(l, of->joint.joint, vector_of_numbers(l, of->joint.joint.frame, s.numbers),
+                             linear_velocity_of_root(t, l), parent);
+  store_motion(l.exists, t, l.k, (uint)WORK_VELOCITY, r.velocity);
+  return r;
 }
 
 /* The forces of a further round, at the velocities that the last one has led to. */
@@ -103,18 +143,15 @@ CALLED void begin_round(const articulation *tree, real h)
   articulation own = *tree;
   const articulation *t = &own;
   round_link r = round_ground();
+  circling_link c = circling_ground();
+  BEGIN_WALK(rounding_link, load_further_round, t, 0u);
   for (uint k = 0; k < t->most_links; ++k) {
-    tree_link l = tree_link_of(t, k);
-    factored_joint f = load_factored_joint(t, l);
-    solid_link solid = load_solid_link(t, l);
-    vec4 start = load_work(t, l.k, (uint)WORK_START);
-    moving_link moves;
-    settled_joint joint = settle_and_move_link(t, l, &f, k, &r, &moves);
-    spatial_motion parent = motion_of_parent(t, l, k, r.moves.acceleration, (uint)WORK_ACCELERATION);
-    r.change = joint.change;
-    r.moves.velocity = moves.own;
-    r.moves.acceleration = leave_inertial_force(t, l, f.joint, &solid, &moves, parent, h);
-    store_state(l.exists, t, l.k, (uint)STATE_JOINT_VELOCITY, start);
+    WALK_TO(rounding_link, load_further_round, t, k, k + 1u);
+    circling_record moves = {now.joint.joint.joint, now.solid, no_motion(), zero3()};
+    r = settle_and_move_link(t, l, k, &now.joint, &r, &moves.numbers);
+    moves.velocity = r.velocity;
+    c = leave_inertial_force(t, l, k, &moves, &c, h);
+    store_state(l.exists, t, l.k, (uint)STATE_JOINT_VELOCITY, now.start);
   }
   store_root(has_links(t), t, (uint)ROOT_LINEAR_VELOCITY, load_root(t, (uint)ROOT_START));
 }
@@ -125,15 +162,12 @@ CALLED void end_first_half(const articulation *tree, vec3 frame, real *energy)
   const articulation *t = &own;
   real sum = R(0.0);
   round_link r = round_ground();
+  BEGIN_WALK(rounding_link, load_last_round, t, 0u);
   for (uint k = 0; k < t->most_links; ++k) {
-    tree_link l = tree_link_of(t, k);
-    factored_joint f = load_factored_joint(t, l);
-    solid_link solid = load_solid_link(t, l);
-    real armature = armature_of_link(t, l);
-    moving_link moves;
-    r.change = settle_and_move_link(t, l, &f, k, &r, &moves).change;
-    r.moves.velocity = moves.own;
-    sum = sum + choose(l.exists, energy_of_link(&solid, moves.own, moves.numbers, armature, frame), (real)R(0.0));
+    WALK_TO(rounding_link, load_last_round, t, k, k + 1u);
+    vec3 numbers;
+    r = settle_and_move_link(t, l, k, &now.joint, &r, &numbers);
+    sum = sum + choose(l.exists, energy_of_link(&now.solid, r.velocity, numbers, now.armature, frame), (real)R(0.0));
   }
   *energy = sum;
 }
@@ -155,22 +189,37 @@ SHARED real first_half(const articulation *t, real h, conserved *kept)
 
 /* --- the next configuration ----------------------------------------------------------------------------------- */
 /* Link k where its joint is. before: link k - 1. */
-SHARED standing_link place_and_weigh_link(const articulation *t, tree_link l, uint k, standing_link before,
-                                          vec4 position, vec3 numbers, real h)
+SHARED standing_link place_and_weigh_link(const articulation *t, tree_link l, uint k, const link_constants *constants,
+                                          standing_link before, vec4 position, vec3 numbers)
 {
-  standing_link own = place_link(t, l, standing_parent(t, l, k, before), position, numbers, h);
-  store_symmetric6(l.exists, t, l.k, inertia_of_solid(load_solid_of(t, l, own.orientation)));
+  standing_link own = place_link(t, l, constants, standing_parent(t, l, k, before), position, numbers);
+  solid_link solid = {rotation_of(own.orientation), xyz(constants->moments), constants->frame_b.w};
+  store_symmetric6(l.exists, t, l.k, inertia_of_solid(solid));
   return own;
+}
+
+/* What a walk that places the links reads of one. */
+typedef struct {
+  link_constants constants;
+  vec4 position, numbers; /* of the joint and of its velocity */
+} placing_link;
+
+SHARED void load_placing_link(const articulation *t, tree_link l, placing_link *p)
+{
+  p->constants = load_link_constants(t, l);
+  p->position = load_state(t, l.k, (uint)STATE_JOINT_POSITION);
+  p->numbers = load_state(t, l.k, (uint)STATE_JOINT_VELOCITY);
 }
 
 /* The links where their joints are, and what they answer to impulses there. */
 SHARED void prepare_tree(const articulation *t, real h)
 {
   standing_link s = standing_ground();
+  BEGIN_WALK(placing_link, load_placing_link, t, 0u);
   for (uint k = 0; k < t->most_links; ++k) {
-    tree_link l = tree_link_of(t, k);
-    vec4 position = load_state(t, l.k, (uint)STATE_JOINT_POSITION);
-    s = place_and_weigh_link(t, l, k, s, position, load_joint_velocity(t, l), h);
+    WALK_TO(placing_link, load_placing_link, t, k, k + 1u);
+    now.constants.inertia = implicit_inertia_of(&now.constants, h);
+    s = place_and_weigh_link(t, l, k, &now.constants, s, now.position, xyz(now.numbers));
   }
   factor_tree(t);
   invert_link_inertias(t);
@@ -183,13 +232,13 @@ CALLED void advance_links(const articulation *tree, real h, mass_moment *masses)
   const articulation *t = &own;
   mass_moment sum = {R(0.0), zero3()};
   standing_link s = standing_ground();
+  BEGIN_WALK(placing_link, load_placing_link, t, 0u);
   for (uint k = 0; k < t->most_links; ++k) {
-    tree_link l = tree_link_of(t, k);
-    vec4 position = load_state(t, l.k, (uint)STATE_JOINT_POSITION);
-    vec3 numbers = load_joint_velocity(t, l);
-    real mass = mass_of_link(t, l);
-    s = place_and_weigh_link(t, l, k, s, advance_joint(t, l, position, numbers, h), numbers, h);
-    sum = with_mass_of_link(sum, l, mass, s.offset);
+    WALK_TO(placing_link, load_placing_link, t, k, k + 1u);
+    vec3 numbers = xyz(now.numbers);
+    now.constants.inertia = implicit_inertia_of(&now.constants, h);
+    s = place_and_weigh_link(t, l, k, &now.constants, s, advance_joint(t, l, now.position, numbers, h), numbers);
+    sum = with_mass_of_link(sum, l, now.constants.frame_b.w, s.offset);
   }
   *masses = sum;
 }
@@ -209,23 +258,44 @@ SHARED void move_root_by(const articulation *t, vec3 way)
 }
 
 /* --- the second half ------------------------------------------------------------------------------------------ */
+typedef struct {
+  circling_record moves;
+  single_factor single;
+} inverting_link;
+
+SHARED void load_inverting_link(const articulation *t, tree_link l, inverting_link *i)
+{
+  load_circling_record(t, l, &i->moves);
+  i->single = load_single_factor(t, l);
+}
+
 CALLED void begin_second_half(const articulation *tree, real h)
 {
   articulation own = *tree;
   const articulation *t = &own;
   symmetric6 w = zero_symmetric6();
   circling_link c = circling_ground();
+  BEGIN_WALK(inverting_link, load_inverting_link, t, 0u);
   for (uint k = 0; k < t->most_links; ++k) {
-    tree_link l = tree_link_of(t, k);
-    factored_joint f = load_factored_joint(t, l);
-    solid_link solid = load_solid_link(t, l);
-    moving_link moves = {motion_of_parent(t, l, k, c.velocity, (uint)WORK_VELOCITY),
-                         load_motion(t, l.k, (uint)WORK_VELOCITY), load_joint_velocity(t, l)};
-    spatial_motion parent = motion_of_parent(t, l, k, c.acceleration, (uint)WORK_ACCELERATION);
+    WALK_TO(inverting_link, load_inverting_link, t, k, k + 1u);
+    factored_joint f = {now.moves.joint, now.single};
     w = invert_link_inertia(t, l, &f, k, &w);
-    c.velocity = moves.own;
-    c.acceleration = leave_inertial_force(t, l, f.joint, &solid, &moves, parent, h);
+    c = leave_inertial_force(t, l, k, &now.moves, &c, h);
   }
+}
+
+/* What the last walk reads of a link. */
+typedef struct {
+  settling_link link;
+  solid_link solid;
+  vec3 offset;
+} ending_link;
+
+SHARED void load_ending_link(const articulation *t, tree_link l, ending_link *e)
+{
+  load_settling_link(t, l, &e->link);
+  e->solid = load_solid_link(t, l);
+  e->offset = xyz(load_work(t, l.k, (uint)WORK_OFFSET));
 }
 
 /* Free trees as one body then. */
@@ -236,12 +306,11 @@ CALLED void end_second_half(const articulation *tree, whole_tree *whole)
   mask free = tree_link_of(t, 0u).is_free & has_links(t);
   whole_tree sum = {zero_symmetric6(), no_force()};
   settled_link s = resting_ground();
+  BEGIN_WALK(ending_link, load_ending_link, t, 0u);
   for (uint k = 0; k < t->most_links; ++k) {
-    tree_link l = tree_link_of(t, k);
-    solid_link solid = load_solid_link(t, l);
-    vec3 offset = xyz(load_work(t, l.k, (uint)WORK_OFFSET));
-    s = settle_link(t, l, k, &s);
-    if (any_of(free)) sum = with_link(sum, l, &solid, offset, s.velocity);
+    WALK_TO(ending_link, load_ending_link, t, k, k + 1u);
+    s = settle_link(t, l, k, &now.link, &s);
+    if (any_of(free)) sum = with_link(sum, l, &now.solid, now.offset, s.velocity);
   }
   *whole = sum;
 }

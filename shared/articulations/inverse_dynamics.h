@@ -26,17 +26,13 @@ SHARED void find_joint_forces(const articulation *t, vec3 gravity)
   circling_link c = circling_ground();
   for (uint k = 0; k < t->most_links; ++k) {
     tree_link l = tree_link_of(t, k);
-    placed_joint j = load_placed_joint(t, l);
-    solid_link solid = load_solid_link(t, l);
-    moving_link moves = {motion_of_parent(t, l, k, c.velocity, (uint)WORK_VELOCITY),
-                         load_motion(t, l.k, (uint)WORK_VELOCITY), load_joint_velocity(t, l)};
-    spatial_motion parent = motion_of_parent(t, l, k, c.acceleration, (uint)WORK_CHANGE);
-    spatial_motion a = link_acceleration(l, j, &moves, parent, joint_acceleration(t, l, j));
-    c.velocity = moves.own;
-    c.acceleration = a;
-    store_motion(l.exists, t, l.k, (uint)WORK_CHANGE, a);
-    spatial_force needs =
-        subtract_forces(force_to_accelerate(&solid, moves.own.angular, a), outer_force(t, l, gravity));
+    circling_record moves;
+    load_circling_record(t, l, &moves);
+    circling_link parent = circling_parent(t, l, k, &c, (uint)WORK_CHANGE);
+    c.velocity = moves.velocity;
+    c.acceleration = link_acceleration(l, &moves, &parent, joint_acceleration(t, l, moves.joint));
+    store_motion(l.exists, t, l.k, (uint)WORK_CHANGE, c.acceleration);
+    spatial_force needs = subtract_forces(force_to_accelerate(&moves, c.acceleration), outer_force(t, l, gravity));
     store_force(l.exists, t, l.k, (uint)WORK_FORCE, needs);
   }
   for (uint n = t->most_links; n > 0u; --n) {

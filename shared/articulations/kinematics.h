@@ -70,40 +70,35 @@ SHARED vec3 linear_velocity_of_root(const articulation *t, tree_link l)
   return any_of(l.is_free) ? xyz(load_root(t, (uint)ROOT_LINEAR_VELOCITY)) : zero3();
 }
 
-SHARED placed_joint place_joint(tree_link l, vec4 position, quat parent, quat a, quat own, vec3 arm_a, vec3 arm_b,
-                                real inertia)
+SHARED placed_joint place_joint(tree_link l, const link_constants *c, vec4 position, quat parent, quat a, quat own)
 {
   placed_joint j;
   vec3 axis = axis_x(rotation_of(a));
-  j.from_parent = rotate(rotation_of(parent), arm_a);
+  j.from_parent = rotate(rotation_of(parent), xyz(c->frame_a));
   if (any_of(l.is_slider))
     j.from_parent = choose3(l.is_slider, add_scaled(j.from_parent, axis, position.x), j.from_parent);
-  j.to_center = negate(rotate(rotation_of(own), arm_b));
+  j.to_center = negate(rotate(rotation_of(own), xyz(c->frame_b)));
   j.frame = choose4(l.is_ball, quat_to_vec4(a), extend(axis, R(0.0)));
-  j.implicit_inertia = inertia;
+  j.implicit_inertia = c->inertia;
   return j;
 }
 
-/* h: of the substep, of which drives.h knows why. position, numbers: of the joint and of its velocity. */
-SHARED standing_link place_link(const articulation *t, tree_link l, standing_link parent, vec4 position, vec3 numbers,
-                                real h)
+/* position, numbers: of the joint and of its velocity. */
+SHARED standing_link place_link(const articulation *t, tree_link l, const link_constants *c, standing_link parent,
+                                vec4 position, vec3 numbers)
 {
-  vec4 frame_a = load_link(t, l.k, (uint)LINK_FRAME_A), frame_b = load_link(t, l.k, (uint)LINK_FRAME_B);
-  vec4 of_a = load_link(t, l.k, (uint)LINK_FRAME_A_ORIENTATION),
-       of_b = load_link(t, l.k, (uint)LINK_FRAME_B_ORIENTATION);
   vec3 linear = linear_velocity_of_root(t, l);
-  real inertia = implicit_inertia_of(t, l, frame_a.w, load_link(t, l.k, (uint)LINK_MOMENTS).w, h);
-  quat a = quat_multiply(parent.orientation, quat_from(of_a)), b = quat_multiply(a, joint_rotation(l, position));
+  quat a = quat_multiply(parent.orientation, quat_from(c->orientation_a)),
+       b = quat_multiply(a, joint_rotation(l, position));
   standing_link own;
-  own.orientation = quat_normalized(quat_multiply(b, conjugate(quat_from(of_b))));
-  placed_joint j =
-      place_joint(l, position, parent.orientation, a, own.orientation, xyz(frame_a), xyz(frame_b), inertia);
+  own.orientation = quat_normalized(quat_multiply(b, conjugate(quat_from(c->orientation_b))));
+  placed_joint j = place_joint(l, c, position, parent.orientation, a, own.orientation);
   own.offset = add(parent.offset, add(j.from_parent, j.to_center));
   own.velocity = link_velocity(l, j, vector_of_numbers(l, j.frame, numbers), linear, parent.velocity);
   store_work(l.exists, t, l.k, (uint)WORK_ORIENTATION, quat_to_vec4(own.orientation));
   store_work(l.exists, t, l.k, (uint)WORK_OFFSET, extend(own.offset, R(0.0)));
   store_work(l.exists, t, l.k, (uint)WORK_FROM_PARENT, extend(j.from_parent, R(0.0)));
-  store_work(l.exists, t, l.k, (uint)WORK_TO_CENTER, extend(j.to_center, inertia));
+  store_work(l.exists, t, l.k, (uint)WORK_TO_CENTER, extend(j.to_center, j.implicit_inertia));
   store_work(l.exists, t, l.k, (uint)WORK_FRAME, j.frame);
   store_motion(l.exists, t, l.k, (uint)WORK_VELOCITY, own.velocity);
   return own;

@@ -87,12 +87,9 @@ SHARED symmetric6 invert_link_inertia(const articulation *t, tree_link l, const 
   return w;
 }
 
-SHARED symmetric6 invert_link_inertia_at_rest(const articulation *t, tree_link l, uint k, const symmetric6 *before)
+SHARED void load_joint_to_invert(const articulation *t, tree_link l, factored_joint *f)
 {
-  factored_joint f = load_factored_joint(t, l);
-  symmetric6 w = invert_link_inertia(t, l, &f, k, before);
-  store_force(l.exists, t, l.k, (uint)WORK_PENDING, no_force());
-  return w;
+  *f = load_factored_joint(t, l);
 }
 /* Nothing is pending then. */
 CALLED void invert_link_inertias(const articulation *tree)
@@ -100,7 +97,12 @@ CALLED void invert_link_inertias(const articulation *tree)
   articulation own = *tree;
   const articulation *t = &own;
   symmetric6 w = zero_symmetric6();
-  for (uint k = 0; k < t->most_links; ++k) w = invert_link_inertia_at_rest(t, tree_link_of(t, k), k, &w);
+  BEGIN_WALK(factored_joint, load_joint_to_invert, t, 0u);
+  for (uint k = 0; k < t->most_links; ++k) {
+    WALK_TO(factored_joint, load_joint_to_invert, t, k, k + 1u);
+    w = invert_link_inertia(t, l, &now, k, &w);
+    store_force(l.exists, t, l.k, (uint)WORK_PENDING, no_force());
+  }
 }
 
 #endif

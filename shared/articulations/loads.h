@@ -13,46 +13,20 @@
 /* Where a link is, moved from frame b: the acceleration of a point of a body that turns. */
 SHARED vec3 circling(vec3 angular, vec3 arm) { return cross3(angular, cross3(angular, arm)); }
 
-/* What turns and circles, of a link whose joint moves with constant speed. numbers: of that speed. */
+/* What inertial forces follow from, of a link whose joint moves with constant speed. numbers: of that speed. */
 typedef struct {
-  spatial_motion parent, own; /* velocities */
+  placed_joint joint;
+  solid_link solid;
+  spatial_motion velocity;
   vec3 numbers;
-} moving_link;
+} circling_record;
 
-/* The acceleration of a link; parent: that of its parent; own: the relative acceleration that the joint gives, 0 if its
- * velocity stays. */
-SHARED spatial_motion link_acceleration(tree_link l, placed_joint j, const moving_link *moves, spatial_motion parent,
-                                        spatial_motion own)
+SHARED void load_circling_record(const articulation *t, tree_link l, circling_record *c)
 {
-  vec3 turning = moves->parent.angular;
-  spatial_motion rate = joint_motion(l, vector_of_numbers(l, j.frame, moves->numbers), zero3());
-  rate.angular = choose3(l.is_free, zero3(), rate.angular);
-  spatial_motion at_b = motion_at(parent, j.from_parent);
-  at_b.linear = add(at_b.linear, circling(turning, j.from_parent));
-  at_b.linear = add_scaled(at_b.linear, cross3(turning, rate.linear), R(2.0));
-  at_b.angular = add(at_b.angular, cross3(turning, rate.angular));
-  spatial_motion m = motion_at(add_motions(at_b, own), j.to_center);
-  m.linear = add(m.linear, circling(moves->own.angular, j.to_center));
-  return m;
-}
-
-/* What a link needs to accelerate so while it turns with the angular velocity w. */
-SHARED spatial_force force_to_accelerate(const solid_link *s, vec3 w, spatial_motion acceleration)
-{
-  spatial_force f = {add(moments_times(s, acceleration.angular), cross3(w, moments_times(s, w))),
-                     scale(acceleration.linear, s->mass)};
-  return f;
-}
-
-/* Leaves in WORK_FORCE the impulse over h by which the link changes its joint's velocity if nothing else pushes, and
- * says how it accelerates. parent: how its parent does; nothing is pending yet. */
-SHARED spatial_motion leave_inertial_force(const articulation *t, tree_link l, placed_joint j, const solid_link *solid,
-                                           const moving_link *moves, spatial_motion parent, real h)
-{
-  spatial_motion a = link_acceleration(l, j, moves, parent, no_motion());
-  store_motion(l.exists, t, l.k, (uint)WORK_ACCELERATION, a);
-  store_force(l.exists, t, l.k, (uint)WORK_FORCE, scaled_force(force_to_accelerate(solid, moves->own.angular, a), -h));
-  return a;
+  c->joint = load_placed_joint(t, l);
+  c->solid = load_solid_link(t, l);
+  c->velocity = load_motion(t, l.k, (uint)WORK_VELOCITY);
+  c->numbers = load_joint_velocity(t, l);
 }
 
 /* What a walk that finds inertial forces knows of a link. */
@@ -66,24 +40,62 @@ SHARED circling_link circling_ground(void)
   return g;
 }
 
-/* Of link k, which moves as WORK_VELOCITY says. before: of link k - 1. */
-SHARED circling_link load_inertial_force(const articulation *t, tree_link l, uint k, const circling_link *before,
-                                         real h)
+/* The acceleration of a link; own: the relative acceleration that the joint gives, 0 if its velocity stays. */
+SHARED spatial_motion link_acceleration(tree_link l, const circling_record *c, const circling_link *parent,
+                                        spatial_motion own)
 {
-  placed_joint j = load_placed_joint(t, l);
-  solid_link solid = load_solid_link(t, l);
-  moving_link moves = {motion_of_parent(t, l, k, before->velocity, (uint)WORK_VELOCITY),
-                       load_motion(t, l.k, (uint)WORK_VELOCITY), load_joint_velocity(t, l)};
-  spatial_motion parent = motion_of_parent(t, l, k, before->acceleration, (uint)WORK_ACCELERATION);
-  circling_link c = {moves.own, leave_inertial_force(t, l, j, &solid, &moves, parent, h)};
-  return c;
+  vec3 turning = parent->velocity.angular;
+  placed_joint j = c->joint;
+  spatial_motion rate = joint_motion(l, vector_of_numbers(l, j.frame, c->numbers), zero3());
+  rate.angular = choose3(l.is_free, zero3(), rate.angular);
+  spatial_motion at_b = motion_at(parent->acceleration, j.from_parent);
+  at_b.linear = add(at_b.linear, circling(turning, j.from_parent));
+  at_b.linear = add_scaled(at_b.linear, cross3(turning, rate.linear), R(2.0));
+  at_b.angular = add(at_b.angular, cross3(turning, rate.angular));
+  spatial_motion m = motion_at(add_motions(at_b, own), j.to_center);
+  m.linear = add(m.linear, circling(c->velocity.angular, j.to_center));
+  return m;
 }
+
+/* What a link needs to accelerate so while it turns. */
+SHARED spatial_force force_to_accelerate(const circling_record *c, spatial_motion acceleration)
+{
+  vec3 w = c->velocity.angular;
+  spatial_force f = {add(moments_times(&c->solid, acceleration.angular), cross3(w, moments_times(&c->solid, w))),
+                     scale(acceleration.linear, c->solid.mass)};
+  return f;
+}
+
+/* row: of accelerations. */
+SHARED circling_link circling_parent(const articulation *t, tree_link l, uint k, const circling_link *before, uint row)
+{
+  circling_link parent = {motion_of_parent(t, l, k, before->velocity, (uint)WORK_VELOCITY),
+                          motion_of_parent(t, l, k, before->acceleration, row)};
+  return parent;
+}
+
+/* Leaves in WORK_FORCE the impulse over h by which link k changes its joint's velocity if nothing else pushes, and says
+ * how it accelerates. before: link k - 1; nothing is pending yet. */
+SHARED circling_link leave_inertial_force(const articulation *t, tree_link l, uint k, const circling_record *c,
+                                          const circling_link *before, real h)
+{
+  circling_link parent = circling_parent(t, l, k, before, (uint)WORK_ACCELERATION);
+  circling_link own = {c->velocity, link_acceleration(l, c, &parent, no_motion())};
+  store_motion(l.exists, t, l.k, (uint)WORK_ACCELERATION, own.acceleration);
+  store_force(l.exists, t, l.k, (uint)WORK_FORCE, scaled_force(force_to_accelerate(c, own.acceleration), -h));
+  return own;
+}
+
 CALLED void load_inertial_forces(const articulation *tree, real h)
 {
   articulation own = *tree;
   const articulation *t = &own;
   circling_link c = circling_ground();
-  for (uint k = 0; k < t->most_links; ++k) c = load_inertial_force(t, tree_link_of(t, k), k, &c, h);
+  BEGIN_WALK(circling_record, load_circling_record, t, 0u);
+  for (uint k = 0; k < t->most_links; ++k) {
+    WALK_TO(circling_record, load_circling_record, t, k, k + 1u);
+    c = leave_inertial_force(t, l, k, &now, &c, h);
+  }
 }
 
 SHARED real mass_of_link(const articulation *t, tree_link l) { return load_link(t, l.k, (uint)LINK_FRAME_B).w; }

@@ -201,44 +201,66 @@ typedef struct {
   vec3 numbers;
 } settled_joint;
 
-/* What is pending becomes velocities of the joint. parent: its change. */
-SHARED settled_joint settle_joint(const articulation *t, tree_link l, const factored_joint *f, spatial_motion parent)
+/* What settling reads of a link. numbers: of its joint's velocity. */
+typedef struct {
+  factored_joint joint;
+  spatial_force pending;
+  vec4 numbers;
+} settling_joint;
+
+SHARED void load_settling_joint(const articulation *t, tree_link l, settling_joint *s)
 {
-  spatial_force pending = load_pending(t, l.k);
-  vec4 velocity = load_state(t, l.k, (uint)STATE_JOINT_VELOCITY);
-  pending_motion m = link_change(t, l, f, pending, parent);
+  s->joint = load_factored_joint(t, l);
+  s->pending = load_pending(t, l.k);
+  s->numbers = load_state(t, l.k, (uint)STATE_JOINT_VELOCITY);
+}
+
+/* What is pending becomes velocities of the joint. parent: its change. */
+SHARED settled_joint settle_joint(const articulation *t, tree_link l, const settling_joint *of, spatial_motion parent)
+{
+  pending_motion m = link_change(t, l, &of->joint, of->pending, parent);
   vec3 change = m.joint;
-  if (any_of(l.is_ball)) change = choose3(l.is_ball, numbers_of_vector(l, f->joint.frame, change), change);
+  if (any_of(l.is_ball)) change = choose3(l.is_ball, numbers_of_vector(l, of->joint.joint.frame, change), change);
   change = choose3(l.is_free, m.link.angular, change);
-  settled_joint s = {m.link, add(xyz(velocity), change)};
+  settled_joint s = {m.link, add(xyz(of->numbers), change)};
   store_motion(l.exists, t, l.k, (uint)WORK_CHANGE, s.change);
-  store_state(l.exists, t, l.k, (uint)STATE_JOINT_VELOCITY, extend(s.numbers, velocity.w));
+  store_state(l.exists, t, l.k, (uint)STATE_JOINT_VELOCITY, extend(s.numbers, of->numbers.w));
   if (!any_of(l.is_free)) return s;
   vec4 linear = load_root(t, (uint)ROOT_LINEAR_VELOCITY);
   store_root(l.exists & l.is_free, t, (uint)ROOT_LINEAR_VELOCITY, extend(add(xyz(linear), s.change.linear), linear.w));
   return s;
 }
 
-/* What a walk that settles a tree knows of a link: its change, its velocity, and the speed of its joint. */
+/* And what is the link's. */
+typedef struct {
+  settling_joint joint;
+  spatial_motion velocity;
+} settling_link;
+
+SHARED void load_settling_link(const articulation *t, tree_link l, settling_link *s)
+{
+  load_settling_joint(t, l, &s->joint);
+  s->velocity = load_motion(t, l.k, (uint)WORK_VELOCITY);
+}
+
+/* What a walk that settles a tree knows of a link. */
 typedef struct {
   spatial_motion change, velocity;
-  vec3 numbers;
 } settled_link;
 
 SHARED settled_link resting_ground(void)
 {
-  settled_link g = {no_motion(), no_motion(), zero3()};
+  settled_link g = {no_motion(), no_motion()};
   return g;
 }
 
 /* Link k, of which then nothing is pending. before: link k - 1. */
-SHARED settled_link settle_link(const articulation *t, tree_link l, uint k, const settled_link *before)
+SHARED settled_link settle_link(const articulation *t, tree_link l, uint k, const settling_link *of,
+                                const settled_link *before)
 {
-  factored_joint f = load_factored_joint(t, l);
-  spatial_motion parent = motion_of_parent(t, l, k, before->change, (uint)WORK_CHANGE),
-                 old = load_motion(t, l.k, (uint)WORK_VELOCITY);
-  settled_joint joint = settle_joint(t, l, &f, parent);
-  settled_link s = {joint.change, add_motions(old, joint.change), joint.numbers};
+  spatial_motion parent = motion_of_parent(t, l, k, before->change, (uint)WORK_CHANGE);
+  spatial_motion change = settle_joint(t, l, &of->joint, parent).change;
+  settled_link s = {change, add_motions(of->velocity, change)};
   store_motion(l.exists, t, l.k, (uint)WORK_VELOCITY, s.velocity);
   store_force(l.exists, t, l.k, (uint)WORK_PENDING, no_force());
   return s;
@@ -249,10 +271,11 @@ CALLED void settle_tree_if(mask wanted, const articulation *tree)
   articulation own = *tree;
   const articulation *t = &own;
   settled_link s = resting_ground();
+  BEGIN_WALK(settling_link, load_settling_link, t, 0u);
   for (uint k = 0; k < t->most_links; ++k) {
-    tree_link l = tree_link_of(t, k);
+    WALK_TO(settling_link, load_settling_link, t, k, k + 1u);
     l.exists = l.exists & wanted;
-    s = settle_link(t, l, k, &s);
+    s = settle_link(t, l, k, &now, &s);
   }
 }
 SHARED void settle_tree(const articulation *t) { settle_tree_if(has_links(t), t); }
@@ -269,13 +292,30 @@ SHARED passed_force nothing_passed(const articulation *t)
   return p;
 }
 
-/* push: of the joint of link k. beyond: of link k + 1; what others pass on is in WORK_FORCE. */
-SHARED passed_force pass_force_inward(const articulation *t, tree_link l, uint k, vec3 push, const passed_force *beyond)
+/* What it reads of a link. */
+typedef struct {
+  factored_joint joint;
+  spatial_force at_center, pending;
+} pushed_link;
+
+SHARED void load_pushed_link(const articulation *t, tree_link l, pushed_link *p)
 {
-  factored_joint f = load_factored_joint(t, l);
-  spatial_force at_center = load_force(t, l.k, (uint)WORK_FORCE);
-  at_center = choose_force(beyond->follows, add_forces(at_center, beyond->rest), at_center);
-  joint_share s = share_of_joint(t, l, &f, at_center, push);
+  p->joint = load_factored_joint(t, l);
+  p->at_center = load_force(t, l.k, (uint)WORK_FORCE);
+  p->pending = no_force();
+}
+SHARED void load_pushed_link_and_joint(const articulation *t, tree_link l, pushed_link *p)
+{
+  load_pushed_link(t, l, p);
+  p->pending = load_pending(t, l.k);
+}
+
+/* beyond: of link k + 1; what others pass on is in WORK_FORCE. */
+SHARED passed_force pass_force_inward(const articulation *t, tree_link l, uint k, const pushed_link *of,
+                                      const passed_force *beyond)
+{
+  spatial_force at_center = choose_force(beyond->follows, add_forces(of->at_center, beyond->rest), of->at_center);
+  joint_share s = share_of_joint(t, l, &of->joint, at_center, of->pending.moment);
   store_force(l.exists, t, l.k, (uint)WORK_PENDING, pending_share(l, s, at_center));
   mask inner = l.exists & !l.is_root;
   passed_force passed = {inner & follows_at_once(l, k), s.rest};
@@ -291,9 +331,10 @@ CALLED void push_links_and_joints(const articulation *tree)
   articulation own = *tree;
   const articulation *t = &own;
   passed_force passed = nothing_passed(t);
+  BEGIN_WALK(pushed_link, load_pushed_link_and_joint, t, t->most_links - 1u);
   for (uint n = t->most_links; n > 0u; --n) {
-    tree_link l = tree_link_of(t, n - 1u);
-    passed = pass_force_inward(t, l, n - 1u, load_pending(t, l.k).moment, &passed);
+    WALK_TO(pushed_link, load_pushed_link_and_joint, t, n - 1u, n - 2u);
+    passed = pass_force_inward(t, l, n - 1u, &now, &passed);
   }
 }
 /* The same where no joint is pushed, whatever WORK_PENDING has. */
@@ -302,8 +343,11 @@ CALLED void push_links(const articulation *tree)
   articulation own = *tree;
   const articulation *t = &own;
   passed_force passed = nothing_passed(t);
-  for (uint n = t->most_links; n > 0u; --n)
-    passed = pass_force_inward(t, tree_link_of(t, n - 1u), n - 1u, zero3(), &passed);
+  BEGIN_WALK(pushed_link, load_pushed_link, t, t->most_links - 1u);
+  for (uint n = t->most_links; n > 0u; --n) {
+    WALK_TO(pushed_link, load_pushed_link, t, n - 1u, n - 2u);
+    passed = pass_force_inward(t, l, n - 1u, &now, &passed);
+  }
 }
 
 #endif

@@ -83,20 +83,44 @@ SHARED axis_row row_of_joint_axis(const joint_rows *of, const single_factor *fac
 /* Which rows a sweep solves. */
 enum { ROWS_IN_REACH, ROWS_FOUND_LATE };
 
+/* What the sweep reads of a link. A CPU reads the rows where the sweep has arrived. */
+typedef struct {
+  visited_link link;
+  joint_rows rows;
+} swept_link;
+
+SHARED void load_swept_link(const articulation *t, tree_link l, swept_link *s)
+{
+  load_visited_link(t, l, &s->link);
+#ifdef READS_AHEAD
+  s->rows = load_joint_rows(t, l);
+#endif
+}
+SHARED void load_rows_of_swept_link(const articulation *t, tree_link l, swept_link *s)
+{
+#ifdef READS_AHEAD
+  (void)t, (void)l, (void)s;
+#else
+  s->rows = load_joint_rows(t, l);
+#endif
+}
+
 /* At a link at which the sweep has arrived. Whether the rows have pushed. */
-SHARED mask solve_rows_at_link(GLOBAL const Parameters *parameters, const articulation *t, tree_link l, visited_link *v,
+SHARED mask solve_rows_at_link(GLOBAL const Parameters *parameters, const articulation *t, tree_link l, swept_link *at,
                                uint pass, uint which)
 {
   mask wanted = l.exists & has_one_freedom(l), pushes = wanted & !wanted;
   if (!any_of(wanted)) return pushes;
-  joint_rows rows = load_joint_rows(t, l);
-  axis_row r = row_of_joint_axis(&rows, &v->joint.single, v->change.joint.x);
-  wanted = wanted & (which == (uint)ROWS_IN_REACH ? has_row_in_reach(parameters, &rows.axis, &r, rows.kept.y, pass)
-                                                  : has_late_row(parameters, rows.axis.lower, rows.axis.upper,
-                                                                 r.at.value, r.speed, rows.kept.y));
+  load_rows_of_swept_link(t, l, at);
+  visited_link *v = &at->link;
+  joint_rows *rows = &at->rows;
+  axis_row r = row_of_joint_axis(rows, &v->joint.single, v->change.joint.x);
+  wanted = wanted & (which == (uint)ROWS_IN_REACH ? has_row_in_reach(parameters, &rows->axis, &r, rows->kept.y, pass)
+                                                  : has_late_row(parameters, rows->axis.lower, rows->axis.upper,
+                                                                 r.at.value, r.speed, rows->kept.y));
   if (!any_of(wanted)) return pushes;
-  real sum = solve_rows_of_axis(parameters, &r, &rows.axis, &rows.kept, pass);
-  store_state(wanted, t, l.k, (uint)STATE_ROW_IMPULSE, rows.kept);
+  real sum = solve_rows_of_axis(parameters, &r, &rows->axis, &rows->kept, pass);
+  store_state(wanted, t, l.k, (uint)STATE_ROW_IMPULSE, rows->kept);
   pushes = wanted & (sum != R(0.0));
   if (any_of(pushes)) push_joint_on_way_if(pushes, t, l, v, sum);
   return pushes;
@@ -110,13 +134,15 @@ CALLED mask sweep_rows_if(mask wanted, GLOBAL const Parameters *parameters, cons
   const articulation *t = &own;
   mask pushed = wanted & !wanted;
   spatial_motion before = no_motion();
+  BEGIN_WALK(swept_link, load_swept_link, t, 0u);
   for (uint k = 0; k < t->most_links; ++k) {
-    tree_link l = go_to_link_if(wanted, t, k);
-    visited_link v;
-    arrive_at_link(t, l, k, before, &v);
-    pushed = pushed | solve_rows_at_link(parameters, t, l, &v, pass, which);
-    store_visit(t, l, &v);
-    before = v.change.link;
+    WALK_TO(swept_link, load_swept_link, t, k, k + 1u);
+    l.exists = l.exists & wanted;
+    go_to_link_if(wanted, t, l, k);
+    arrive_at_link(t, l, k, before, &now.link);
+    pushed = pushed | solve_rows_at_link(parameters, t, l, &now, pass, which);
+    store_visit(t, l, &now.link);
+    before = now.link.change.link;
   }
   end_sweep_if(wanted, t);
   return pushed;

@@ -41,11 +41,15 @@ typedef struct {
   pending_motion change;
 } visited_link;
 
-/* before: the change of link k - 1. */
-SHARED void arrive_at_link(const articulation *t, tree_link l, uint k, spatial_motion before, visited_link *v)
+SHARED void load_visited_link(const articulation *t, tree_link l, visited_link *v)
 {
   v->joint = load_factored_joint(t, l);
   v->pending = load_pending(t, l.k);
+}
+
+/* before: the change of link k - 1. v has been loaded. */
+SHARED void arrive_at_link(const articulation *t, tree_link l, uint k, spatial_motion before, visited_link *v)
+{
   v->parent = motion_of_parent(t, l, k, before, (uint)WORK_CHANGE);
   v->change = link_change(t, l, &v->joint, v->pending, v->parent);
 }
@@ -92,13 +96,10 @@ SHARED void return_to_link_if(mask wanted, const articulation *t, shape_uint at,
   }
 }
 
-/* Link k, from link k - 1. */
-SHARED tree_link go_to_link_if(mask wanted, const articulation *t, uint k)
+/* To link k, l, from link k - 1. */
+SHARED void go_to_link_if(mask wanted, const articulation *t, tree_link l, uint k)
 {
-  tree_link l = tree_link_of(t, k);
-  l.exists = l.exists & wanted;
-  if (k > 0u) return_to_link_if(l.exists, t, k - 1u, l.parent);
-  return l;
+  if (k > 0u) return_to_link_if(wanted & l.exists, t, k - 1u, l.parent);
 }
 
 /* From the last link to the root, which is left too. */

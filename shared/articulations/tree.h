@@ -143,9 +143,29 @@ SHARED void store_symmetric6(mask wanted, const articulation *t, shape_uint k, s
 }
 
 /* --- walks ---------------------------------------------------------------------------------------------------- */
-/* Memory answers late, and a walk waits for it link by link. So what a walk needs of a link it reads before it writes
- * anything of the link, and most links follow their parent at once: what the walk has found at link k - 1 need not come
- * from memory for link k. */
+/* Memory answers late, and a walk waits for it link by link. So what a walk needs of a link is a record, `now` of link
+ * `l`, which it reads before it writes anything of the link; a device reads that of the link beyond it as well. No walk
+ * changes the record of a link at which it has not been, so it may be read early; of none beyond the last link is used.
+ * And most links follow their parent at once: what the walk has found at link k - 1 need not come from memory for
+ * link k. */
+#ifdef READS_AHEAD
+#define BEGIN_WALK(record, load, t, first)       \
+  tree_link link_ahead = tree_link_of(t, first); \
+  record ahead;                                  \
+  load(t, link_ahead, &ahead)
+#define WALK_TO(record, load, t, k, beyond) \
+  tree_link l = link_ahead;                 \
+  record now = ahead;                       \
+  link_ahead = tree_link_of(t, beyond);     \
+  load(t, link_ahead, &ahead)
+#else
+#define BEGIN_WALK(record, load, t, first) (void)0
+#define WALK_TO(record, load, t, k, beyond) \
+  tree_link l = tree_link_of(t, k);         \
+  record now;                               \
+  load(t, l, &now)
+#endif
+
 SHARED mask follows_at_once(tree_link l, uint k) { return l.parent == (uint_lanes)(k - 1u); }
 
 /* The motion of the parent of link k; of a root, that of the ground. before: that of link k - 1, which has been stored,

@@ -222,8 +222,10 @@ TEST_CASE("articulations: a sweep sees at each link and joint all that it has pu
     push_link(&tree.t, pushed, force_of(first));
     Column expected = inverse * dense.jacobian().middleRows<6>(6 * int(pushed)).transpose() * first;
     for (uint k = 0; k < tree.t.links; ++k) {
-      const tree_link l = go_to_link_if(true, &tree.t, k);
+      const tree_link l = tree_link_of(&tree.t, k);
       visited_link v;
+      go_to_link_if(true, &tree.t, l, k);
+      load_visited_link(&tree.t, l, &v);
       arrive_at_link(&tree.t, l, k, k > 0 ? load_motion(&tree.t, k - 1, WORK_CHANGE) : no_motion(), &v);
       const double change = v.change.joint.x;
       const auto jacobian = dense.jacobian().middleRows<6>(6 * int(k));
