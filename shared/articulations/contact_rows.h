@@ -161,18 +161,34 @@ typedef struct {
   projected_rows seen, other, all;
 } moved_rows;
 
-SHARED moved_rows rows_moved_by(const articulation *t, const link_contact *c, const contact_rows *rows, seen_paths *p,
-                                uint freedom)
+/* What a freedom moves the links by. */
+typedef struct {
+  mask seen, other; /* whether it does */
+  spatial_motion of_seen, of_other;
+} moved_links;
+
+/* TREE_FREEDOMS moves nothing. */
+SHARED moved_links links_moved_by(const articulation *t, seen_paths *p, uint freedom)
+{
+  moved_links m = {has_links(t) & !has_links(t), has_links(t) & !has_links(t), no_motion(), no_motion()};
+  if (freedom >= TREE_FREEDOMS) return m;
+  m.seen = has_freedom(p->seen.freedoms, freedom);
+  m.other = has_freedom(p->other.freedoms, freedom);
+  m.of_seen = next_motion_if(m.seen, t, &p->seen);
+  m.of_other = next_motion_if(m.other, t, &p->other);
+  return m;
+}
+
+SHARED moved_rows rows_moved_by(const link_contact *c, const contact_rows *rows, const moved_links *links)
 {
   moved_rows m;
-  mask moves_seen = has_freedom(p->seen.freedoms, freedom), moves_other = has_freedom(p->other.freedoms, freedom);
-  spatial_motion seen = next_motion_if(moves_seen, t, &p->seen);
-  m.moves = moves_seen | moves_other;
-  m.moves_both = moves_seen & moves_other;
-  m.seen = m.all = project_rows(rows, seen);
+  mask moves_other = links->other;
+  m.moves = links->seen | moves_other;
+  m.moves_both = links->seen & moves_other;
+  m.seen = m.all = project_rows(rows, links->of_seen);
   m.other = m.seen;
   if (!any_of(moves_other)) return m;
-  m.other = project_rows(rows, motion_at(next_motion_if(moves_other, t, &p->other), c->body.to_seen));
+  m.other = project_rows(rows, motion_at(links->of_other, c->body.to_seen));
   vec4 n = m.other.normals, o = m.other.others;
   m.all.normals =
       make_vec4(m.seen.normals.x - n.x, m.seen.normals.y - n.y, m.seen.normals.z - n.z, m.seen.normals.w - n.w);
@@ -294,9 +310,21 @@ SHARED void project_freedoms_if(mask wanted, const articulation *t, const link_c
   freedom_set moved = freedoms_of_either(&p.seen, &p.other);
   store_uint_if(wanted, f.freedom, at, moved.low);
   store_uint_if(wanted, f.freedom, at + (uint_lanes)stride, moved.high);
-  for (freedoms_left left = freedoms_of_any(moved); any_left(&left);) {
-    uint freedom = next_freedom(&left);
-    moved_rows m = rows_moved_by(t, c, rows, &p, freedom);
+  freedoms_left left = freedoms_of_any(moved);
+  uint beyond = next_freedom_or_none(&left);
+#ifdef READS_AHEAD
+  moved_links ahead = links_moved_by(t, &p, beyond);
+#endif
+  while (beyond < TREE_FREEDOMS) {
+    uint freedom = beyond;
+    beyond = next_freedom_or_none(&left);
+#ifdef READS_AHEAD
+    moved_links links = ahead;
+    ahead = links_moved_by(t, &p, beyond);
+#else
+    moved_links links = links_moved_by(t, &p, freedom);
+#endif
+    moved_rows m = rows_moved_by(c, rows, &links);
     store_projection_if(wanted & m.moves, f, stride, freedom, at, m.all);
     add_response(&response, m.all, R(1.0));
     if (any_of(m.moves_both)) {

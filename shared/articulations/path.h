@@ -127,65 +127,66 @@ SHARED vec3 row_of_matrix(mat3 m, uint n) { return n == 0u ? m.x : n == 1u ? m.y
 /* --- making the table ----------------------------------------------------------------------------------------- */
 /* A joint that nothing pushes, and how it answers its parent. */
 typedef struct {
-  tree_link link;
   placed_joint joint;
   single_factor single;
   ball_factor ball;
+  shape_uint rows; /* of its parent */
 } following_joint;
 
-SHARED following_joint load_following_joint(const articulation *t, tree_link l)
+SHARED void load_following_joint(const articulation *t, tree_link l, following_joint *f)
 {
-  following_joint f = {l, load_placed_joint(t, l), load_single_factor(t, l), load_ball_factor(t, l)};
-  return f;
+  f->joint = load_placed_joint(t, l);
+  f->single = load_single_factor(t, l);
+  f->ball = load_ball_factor(t, l);
+  f->rows = load_path_word(t, l.k, (uint)PATH_FIRST_ENTRY);
 }
 
 /* The motion of the link while its parent moves so and nothing pushes the joint. */
-SHARED spatial_motion motion_of_follower(const following_joint *f, spatial_motion parent)
+SHARED spatial_motion motion_of_follower(tree_link l, const following_joint *f, spatial_motion parent)
 {
   spatial_motion at_b = motion_at(parent, f->joint.from_parent);
-  mask one = has_one_freedom(f->link), ball = f->link.is_ball;
+  mask one = has_one_freedom(l), ball = l.is_ball;
   vec3 world = zero3();
   if (any_of(one)) world = choose3(one, scale(xyz(f->joint.frame), change_of_single(&f->single, at_b)), world);
   if (any_of(ball)) world = choose3(ball, change_of_ball(&f->ball, f->joint, at_b), world);
-  return motion_at(add_motions(at_b, joint_motion(f->link, world, zero3())), f->joint.to_center);
+  return motion_at(add_motions(at_b, joint_motion(l, world, zero3())), f->joint.to_center);
 }
 
 /* Rows are gone through by some at once, so that a device waits for their memory once. */
-#define PATH_CHUNK 4u
+#define PATH_CHUNK (2u * ROWS_AT_ONCE)
 
 /* The rows of the parent as the link follows it. */
-SHARED void follow_path_of_parent_if(mask wanted, const articulation *t, const following_joint *f, shape_uint rows)
+SHARED void follow_path_of_parent_if(mask wanted, const articulation *t, tree_link l, const following_joint *f)
 {
-  tree_link l = f->link;
-  for (uint first = 0u; any_of(wanted & ((uint_lanes)first < rows)); first += PATH_CHUNK) {
+  for (uint first = 0u; any_of(wanted & ((uint_lanes)first < f->rows)); first += PATH_CHUNK) {
     spatial_motion row[PATH_CHUNK];
     for (uint n = 0u; n < PATH_CHUNK; ++n) {
       shape_uint entry = first + n;
-      row[n] = load_path_motion_if(wanted & (entry < rows), t, l.parent, entry);
+      row[n] = load_path_motion_if(wanted & (entry < f->rows), t, l.parent, entry);
     }
     for (uint n = 0u; n < PATH_CHUNK; ++n) {
       shape_uint entry = first + n;
-      store_path_motion_if(wanted & (entry < rows), t, l.k, entry, motion_of_follower(f, row[n]));
+      store_path_motion_if(wanted & (entry < f->rows), t, l.k, entry, motion_of_follower(l, f, row[n]));
     }
   }
 }
 
-SHARED void begin_path_by_single_if(mask wanted, const articulation *t, const following_joint *f, shape_uint rows)
+SHARED void begin_path_by_single_if(mask wanted, const articulation *t, tree_link l, const following_joint *f)
 {
   if (!any_of(wanted)) return;
-  spatial_motion axis = motion_at(axis_motion(f->link, f->joint), f->joint.to_center);
+  spatial_motion axis = motion_at(axis_motion(l, f->joint), f->joint.to_center);
   real unit = root_if_positive(f->single.inverse);
   spatial_motion m = {scale(axis.angular, unit), scale(axis.linear, unit)};
-  store_path_motion_if(wanted, t, f->link.k, rows, m);
+  store_path_motion_if(wanted, t, l.k, f->rows, m);
 }
 
-SHARED void begin_path_by_ball_if(mask wanted, const articulation *t, const following_joint *f, shape_uint rows)
+SHARED void begin_path_by_ball_if(mask wanted, const articulation *t, tree_link l, const following_joint *f)
 {
   if (!any_of(wanted)) return;
   lower_triangle unit = cholesky_of(f->ball.inverse);
   for (uint n = 0u; n < 3u; ++n) {
     spatial_motion turn = {column_of(unit, n), zero3()};
-    store_path_motion_if(wanted, t, f->link.k, rows + n, motion_at(turn, f->joint.to_center));
+    store_path_motion_if(wanted, t, l.k, f->rows + n, motion_at(turn, f->joint.to_center));
   }
 }
 
@@ -205,14 +206,13 @@ CALLED void prepare_paths_if(mask wanted, const articulation *tree)
 {
   articulation own = *tree;
   const articulation *t = &own;
+  BEGIN_WALK(following_joint, load_following_joint, t, 0u);
   for (uint k = 0u; k < t->most_links; ++k) {
-    tree_link l = tree_link_of(t, k);
+    WALK_TO(following_joint, load_following_joint, t, k, k + 1u);
     l.exists = l.exists & wanted;
-    following_joint f = load_following_joint(t, l);
-    shape_uint rows = load_path_word(t, l.k, (uint)PATH_FIRST_ENTRY);
-    follow_path_of_parent_if(l.exists & !l.is_root, t, &f, rows);
-    begin_path_by_single_if(l.exists & has_one_freedom(l), t, &f, rows);
-    begin_path_by_ball_if(l.exists & l.is_ball, t, &f, rows);
+    follow_path_of_parent_if(l.exists & !l.is_root, t, l, &now);
+    begin_path_by_single_if(l.exists & has_one_freedom(l), t, l, &now);
+    begin_path_by_ball_if(l.exists & l.is_ball, t, l, &now);
     begin_path_by_root_if(l.exists & l.is_free, t, l);
   }
 }
@@ -248,6 +248,8 @@ SHARED uint next_freedom(freedoms_left *left)
   return 32u * in_high + lowest_bit(bits);
 }
 
+SHARED uint next_freedom_or_none(freedoms_left *left) { return any_left(left) ? next_freedom(left) : TREE_FREEDOMS; }
+
 /* For each freedom of a tree what has pushed it. */
 typedef struct {
   uint count; /* freedoms of any lane, in whole chunks */
@@ -255,10 +257,11 @@ typedef struct {
 } tree_freedoms;
 
 /* In chunks, because an H200 takes 7% longer for the contacts of trees if the loop goes one by one. */
+#define FREEDOMS_CHUNK 4u
 SHARED void begin_freedoms(const articulation *t, tree_freedoms *z)
 {
-  for (z->count = 0u; any_of((uint_lanes)z->count < t->freedoms); z->count += PATH_CHUNK)
-    for (uint n = 0u; n < PATH_CHUNK; ++n) z->change[z->count + n] = R(0.0);
+  for (z->count = 0u; any_of((uint_lanes)z->count < t->freedoms); z->count += FREEDOMS_CHUNK)
+    for (uint n = 0u; n < FREEDOMS_CHUNK; ++n) z->change[z->count + n] = R(0.0);
 }
 
 /* The path of a link, from freedom to freedom. */
@@ -305,12 +308,25 @@ SHARED vec3 load_three_changes_if(mask wanted, const articulation *t, shape_uint
                    load_change_if(wanted, t, first + 2u));
 }
 
-SHARED spatial_force pending_of_freedoms(const articulation *t, tree_link l, shape_uint first)
+/* What leaving z at a link reads. */
+typedef struct {
+  real inverse; /* of a joint with one degree of freedom */
+  shape_uint first;
+} pending_link;
+
+SHARED void load_pending_link(const articulation *t, tree_link l, pending_link *p)
 {
+  p->inverse = load_single_factor(t, l).inverse;
+  p->first = load_path_word(t, l.k, (uint)PATH_FIRST_FREEDOM);
+}
+
+SHARED spatial_force pending_of_freedoms(const articulation *t, tree_link l, const pending_link *of)
+{
+  shape_uint first = of->first;
   spatial_force pending = no_force();
   mask one = l.exists & has_one_freedom(l), ball = l.exists & l.is_ball, free = l.exists & l.is_free;
   if (any_of(one)) {
-    real change = load_change_if(one, t, first) * root_if_positive(load_single_factor(t, l).inverse);
+    real change = load_change_if(one, t, first) * root_if_positive(of->inverse);
     pending.moment = choose3(one, make_vec3(change, R(0.0), R(0.0)), pending.moment);
   }
   if (any_of(ball)) {
@@ -348,11 +364,11 @@ CALLED void leave_pending_if(mask wanted, const articulation *tree, const tree_f
   const articulation *t = &own;
   for (uint d = 0u; d < z->count; ++d)
     store_real_of_row_if(wanted & ((uint_lanes)d < t->freedoms), t->change, change_row(t, d), z->change[d]);
+  BEGIN_WALK(pending_link, load_pending_link, t, 0u);
   for (uint k = 0u; k < t->most_links; ++k) {
-    tree_link l = tree_link_of(t, k);
+    WALK_TO(pending_link, load_pending_link, t, k, k + 1u);
     l.exists = l.exists & wanted;
-    spatial_force pending = pending_of_freedoms(t, l, load_path_word(t, l.k, (uint)PATH_FIRST_FREEDOM));
-    store_force(l.exists, t, l.k, (uint)WORK_PENDING, pending);
+    store_force(l.exists, t, l.k, (uint)WORK_PENDING, pending_of_freedoms(t, l, &now));
   }
 }
 

@@ -12,54 +12,58 @@
 
 #include "shared/articulations/contact_rows.h"
 
-/* A contact, where its rows stand (contact_places), and these, read once. freedom: those that move the contact of any
- * lane. */
+/* A contact, where its rows stand (contact_places), and what solving it needs besides its rows. A device reads that of
+ * the next contact while it solves this one; a CPU reads terms where it needs them. */
 typedef struct {
   mask wanted;
   uint_lanes i, at;
-  uint stride, rows;
   freedom_set moved;
+  real packed, slop; /* packed: the friction, as contacts have it */
+  vec4 normal, friction;
+#ifdef READS_AHEAD
+  vec4 term[CONTACT_TERMS];
+#endif
+} listed_contact;
+
+/* Its rows, read once. freedom: those that move the contact of any lane. */
+typedef struct {
+  uint rows;
   uint freedom[TREE_FREEDOMS];
   projected_rows row[TREE_FREEDOMS];
 } projected_contact;
 
-SHARED vec4 load_term(const projected_contact *c, read_contact_freedoms f, uint term)
+SHARED vec4 load_term(const listed_contact *c, read_contact_freedoms f, uint stride, uint term)
 {
-  return load_float4(f.term, c->at + c->stride * term);
+#ifdef READS_AHEAD
+  (void)f, (void)stride;
+  return c->term[term];
+#else
+  return load_float4(f.term, c->at + stride * term);
+#endif
 }
 
 /* What does not move the contact is not used. */
-SHARED projected_rows load_projection(const projected_contact *c, read_contact_freedoms f, uint n)
+SHARED projected_rows load_projection(read_contact_freedoms f, uint stride, uint_lanes at, uint freedom)
 {
-  uint_lanes row = c->at + c->stride * (2u * c->freedom[n]);
-  projected_rows p = {load_float4(f.row, row), load_float4(f.row, row + c->stride)};
+  uint_lanes row = at + stride * (2u * freedom);
+  projected_rows p = {load_float4(f.row, row), load_float4(f.row, row + stride)};
   return p;
 }
 
 /* Rows are read by some at once, so that a device waits for their memory once. */
-SHARED void load_projections(projected_contact *c, read_contact_freedoms f)
+#define PROJECTIONS_AT_ONCE 8u
+
+SHARED void load_projections(projected_contact *c, read_contact_freedoms f, uint stride, const listed_contact *of)
 {
-  for (uint first = 0u; first < c->rows; first += PATH_CHUNK) {
-    projected_rows p[PATH_CHUNK];
-    for (uint n = 0u; n < PATH_CHUNK; ++n)
-      if (first + n < c->rows) p[n] = load_projection(c, f, first + n);
-    for (uint n = 0u; n < PATH_CHUNK; ++n)
+  c->rows = 0u;
+  for (freedoms_left left = freedoms_of_any(of->moved); any_left(&left);) c->freedom[c->rows++] = next_freedom(&left);
+  for (uint first = 0u; first < c->rows; first += PROJECTIONS_AT_ONCE) {
+    projected_rows p[PROJECTIONS_AT_ONCE];
+    for (uint n = 0u; n < PROJECTIONS_AT_ONCE; ++n)
+      if (first + n < c->rows) p[n] = load_projection(f, stride, of->at, c->freedom[first + n]);
+    for (uint n = 0u; n < PROJECTIONS_AT_ONCE; ++n)
       if (first + n < c->rows) c->row[first + n] = p[n];
   }
-}
-
-SHARED void load_projected_contact(mask wanted, read_contact_freedoms f, uint stride, uint_lanes i, uint_lanes at,
-                                   projected_contact *c)
-{
-  c->wanted = wanted;
-  c->i = i;
-  c->at = at;
-  c->stride = stride;
-  c->rows = 0u;
-  c->moved.low = choose(wanted, load_uint(f.freedom, at), (uint_lanes)0u);
-  c->moved.high = choose(wanted, load_uint(f.freedom, at + stride), (uint_lanes)0u);
-  for (freedoms_left left = freedoms_of_any(c->moved); any_left(&left);) c->freedom[c->rows++] = next_freedom(&left);
-  load_projections(c, f);
 }
 
 SHARED vec4 no_speeds(void) { return make_vec4(R(0.0), R(0.0), R(0.0), R(0.0)); }
@@ -77,23 +81,24 @@ SHARED vec4 row_of_kind(const projected_contact *c, uint kind, uint n)
 }
 
 /* How what has pushed the freedoms moves the rows. */
-SHARED vec4 speeds_of_freedoms(const projected_contact *c, uint kind, const tree_freedoms *z)
+SHARED vec4 speeds_of_freedoms(const projected_contact *c, freedom_set moved, uint kind, const tree_freedoms *z)
 {
   vec4 speeds = no_speeds();
   for (uint n = 0u; n < c->rows; ++n) {
-    vec4 moved = add_scaled4(speeds, row_of_kind(c, kind, n), z->change[c->freedom[n]]);
-    speeds = choose4(has_freedom(c->moved, c->freedom[n]), moved, speeds);
+    vec4 sum = add_scaled4(speeds, row_of_kind(c, kind, n), z->change[c->freedom[n]]);
+    speeds = choose4(has_freedom(moved, c->freedom[n]), sum, speeds);
   }
   return speeds;
 }
 
-SHARED void push_freedoms_if(mask pushes, const projected_contact *c, uint kind, tree_freedoms *z, vec4 impulses)
+SHARED void push_freedoms_if(mask pushes, const projected_contact *c, freedom_set moved, uint kind, tree_freedoms *z,
+                             vec4 impulses)
 {
   if (!any_of(pushes)) return;
   for (uint n = 0u; n < c->rows; ++n) {
     uint freedom = c->freedom[n];
     real change = z->change[freedom] + dot4(row_of_kind(c, kind, n), impulses);
-    z->change[freedom] = choose(pushes & has_freedom(c->moved, freedom), change, z->change[freedom]);
+    z->change[freedom] = choose(pushes & has_freedom(moved, freedom), change, z->change[freedom]);
   }
 }
 
@@ -110,15 +115,14 @@ SHARED vec4 friction_after(vec4 impulse, vec4 speeds, vec4 terms, real limit)
 
 SHARED mask is_nonzero4(vec4 v) { return (v.x != R(0.0)) | (v.y != R(0.0)) | (v.z != R(0.0)) | (v.w != R(0.0)); }
 
-SHARED vec4 solve_tree_friction_if(mask rough, const projected_contact *c, read_contact_freedoms f, tree_freedoms *z,
-                                   vec4 friction, real limit, mask *pushed)
+SHARED vec4 solve_tree_friction_if(mask rough, const projected_contact *c, freedom_set moved, tree_freedoms *z,
+                                   vec4 friction, vec4 speeds_before, vec4 terms, real limit, mask *pushed)
 {
-  if (!any_of(rough)) return friction;
-  vec4 speeds = add4(load_term(c, f, CONTACT_TERM_SPEEDS), speeds_of_freedoms(c, ROWS_OF_FRICTION, z));
-  vec4 solved = friction_after(friction, speeds, load_term(c, f, CONTACT_TERM_FRICTION), limit);
+  vec4 speeds = add4(speeds_before, speeds_of_freedoms(c, moved, ROWS_OF_FRICTION, z));
+  vec4 solved = friction_after(friction, speeds, terms, limit);
   vec4 change = change_between(friction, solved);
   mask pushes = rough & is_nonzero4(change);
-  push_freedoms_if(pushes, c, ROWS_OF_FRICTION, z, change);
+  push_freedoms_if(pushes, c, moved, ROWS_OF_FRICTION, z, change);
   *pushed = *pushed | pushes;
   return choose4(rough, solved, friction);
 }
@@ -129,21 +133,20 @@ typedef struct {
   vec4 speed, impulse, mass, separation, squares, coupled, soft_coupled, last_coupled;
 } tree_normals;
 
-/* A single point is coupled to no other one. */
-SHARED tree_normals load_tree_normals(const projected_contact *c, read_contact_freedoms f, const tree_freedoms *z,
-                                      vec4 impulse)
+/* pushed: what has pushed the freedoms, as the normals see it. A single point is coupled to no other one. */
+SHARED tree_normals load_tree_normals(const listed_contact *c, read_contact_freedoms f, uint stride, vec4 pushed)
 {
   tree_normals s;
-  s.speed = add4(load_term(c, f, CONTACT_TERM_NORMAL_SPEEDS), speeds_of_freedoms(c, ROWS_OF_NORMALS, z));
-  s.impulse = impulse;
-  s.mass = load_term(c, f, CONTACT_TERM_MASSES);
-  s.separation = load_term(c, f, CONTACT_TERM_SEPARATIONS);
-  s.squares = load_term(c, f, CONTACT_TERM_SQUARES);
+  s.speed = add4(load_term(c, f, stride, CONTACT_TERM_NORMAL_SPEEDS), pushed);
+  s.impulse = c->normal;
+  s.mass = load_term(c, f, stride, CONTACT_TERM_MASSES);
+  s.separation = load_term(c, f, stride, CONTACT_TERM_SEPARATIONS);
+  s.squares = load_term(c, f, stride, CONTACT_TERM_SQUARES);
   s.coupled = s.soft_coupled = s.last_coupled = no_speeds();
   if (!any_of((s.mass.y > R(0.0)) | (s.mass.z > R(0.0)) | (s.mass.w > R(0.0)))) return s;
-  s.coupled = load_term(c, f, CONTACT_TERM_COUPLED);
-  s.soft_coupled = load_term(c, f, CONTACT_TERM_SOFT_COUPLED);
-  s.last_coupled = load_term(c, f, CONTACT_TERM_LAST_COUPLED);
+  s.coupled = load_term(c, f, stride, CONTACT_TERM_COUPLED);
+  s.soft_coupled = load_term(c, f, stride, CONTACT_TERM_SOFT_COUPLED);
+  s.last_coupled = load_term(c, f, stride, CONTACT_TERM_LAST_COUPLED);
   return s;
 }
 
@@ -229,50 +232,83 @@ SHARED void bounce_tree_normals(tree_normals *s, vec4 target_velocity, vec4 high
 }
 
 /* --- passes --------------------------------------------------------------------------------------------------- */
-SHARED void push_by_normals_if(mask wanted, const projected_contact *c, tree_freedoms *z, vec4 before, vec4 after,
-                               mask *pushed)
+/* What solving the contacts of a tree reads, and pairs: the stride of planes of contacts. */
+typedef struct {
+  read_contacts contacts;
+  read_contact_freedoms freedoms;
+  GLOBAL const memory_real *slop;
+  GLOBAL const uint *listed; /* the contacts of the tree of each lane */
+  contact_places places;
+  uint pairs, biased;
+} tree_contacts;
+
+SHARED listed_contact load_listed_contact(GLOBAL const Parameters *parameters, const tree_contacts *s,
+                                          write_contact_impulses impulses, uint_lanes tree, uint_lanes listed, uint n)
+{
+  listed_contact c;
+  uint slot = n < TREE_COLORS ? n : 0u;
+  c.wanted = (uint_lanes)n < listed;
+  c.i = c.at = choose(c.wanted, load_uint(s->listed, TREE_COLORS * tree + slot), (uint_lanes)0u);
+  if (s->places.by_tree) c.at = place_by_tree(s->places, tree, (uint_lanes)slot);
+  c.moved.low = choose(c.wanted, load_uint(s->freedoms.freedom, c.at), (uint_lanes)0u);
+  c.moved.high = choose(c.wanted, load_uint(s->freedoms.freedom, c.at + s->places.stride), (uint_lanes)0u);
+  c.packed = load_float4(s->contacts.normal, c.i).w;
+  c.slop = load_real(s->slop, c.i);
+  c.normal = load_float4(impulses.normal, c.i);
+  c.friction = load_friction(parameters, impulses.friction, c.i);
+#ifdef READS_AHEAD
+  for (uint term = 0u; term < (uint)CONTACT_TERMS; ++term)
+    c.term[term] = load_float4(s->freedoms.term, c.at + s->places.stride * term);
+#endif
+  return c;
+}
+
+SHARED void push_by_normals_if(mask wanted, const projected_contact *c, freedom_set moved, tree_freedoms *z,
+                               vec4 before, vec4 after, mask *pushed)
 {
   vec4 change = change_between(before, after);
   mask pushes = wanted & is_nonzero4(change);
-  push_freedoms_if(pushes, c, ROWS_OF_NORMALS, z, change);
+  push_freedoms_if(pushes, c, moved, ROWS_OF_NORMALS, z, change);
   *pushed = *pushed | pushes;
 }
 
-/* pairs: the stride of planes of contacts. */
-SHARED void solve_projected_contact(GLOBAL const Parameters *parameters, const projected_contact *c,
-                                    read_contacts contacts, read_contact_freedoms f,
-                                    GLOBAL const memory_real *constraint_slop, write_contact_impulses impulses,
-                                    tree_freedoms *z, uint pairs, uint biased, mask *pushed)
+SHARED void solve_projected_contact(GLOBAL const Parameters *parameters, const listed_contact *c,
+                                    const projected_contact *rows, const tree_contacts *s,
+                                    write_contact_impulses impulses, tree_freedoms *z, mask *pushed)
 {
-  real packed = load_float4(contacts.normal, c->i).w, coefficient = friction_of(packed);
-  vec4 before = load_float4(impulses.normal, c->i), friction = load_friction(parameters, impulses.friction, c->i);
+  uint stride = s->places.stride;
+  real coefficient = friction_of(c->packed);
+  vec4 before = c->normal, speeds = load_term(c, s->freedoms, stride, CONTACT_TERM_SPEEDS);
   mask rough = c->wanted & (coefficient > R(0.0));
-  if (!HAS_FEATURE(parameters, FRICTION)) rough = rough & !rough;
-  real limit = coefficient * ((before.x + before.y) + (before.z + before.w));
-  friction = solve_tree_friction_if(rough, c, f, z, friction, limit, pushed);
-  if (HAS_FEATURE(parameters, FRICTION)) store_float4_if(rough, impulses.friction, c->i, friction);
-  tree_normals s = load_tree_normals(c, f, z, before);
-  softness soft = softness_against(parameters, load_term(c, f, CONTACT_TERM_SPEEDS).w > R(0.0));
-  solve_rounds_of_tree_normals(parameters, &s, soft, load_real(constraint_slop, c->i), packed < R(0.0), biased);
-  store_float4_if(c->wanted, impulses.normal, c->i, s.impulse);
-  keep_highest_impulses_if(c->wanted, parameters, impulses.restitution, pairs, s.impulse, c->i);
-  push_by_normals_if(c->wanted, c, z, before, s.impulse, pushed);
+  if (HAS_FEATURE(parameters, FRICTION) && any_of(rough)) {
+    real limit = coefficient * ((before.x + before.y) + (before.z + before.w));
+    vec4 terms = load_term(c, s->freedoms, stride, CONTACT_TERM_FRICTION);
+    vec4 friction = solve_tree_friction_if(rough, rows, c->moved, z, c->friction, speeds, terms, limit, pushed);
+    store_float4_if(rough, impulses.friction, c->i, friction);
+  }
+  tree_normals normals =
+      load_tree_normals(c, s->freedoms, stride, speeds_of_freedoms(rows, c->moved, ROWS_OF_NORMALS, z));
+  softness soft = softness_against(parameters, speeds.w > R(0.0));
+  solve_rounds_of_tree_normals(parameters, &normals, soft, c->slop, c->packed < R(0.0), s->biased);
+  store_float4_if(c->wanted, impulses.normal, c->i, normals.impulse);
+  keep_highest_impulses_if(c->wanted, parameters, impulses.restitution, s->pairs, normals.impulse, c->i);
+  push_by_normals_if(c->wanted, rows, c->moved, z, before, normals.impulse, pushed);
 }
 
 /* Contacts of which no point bounces stay as they are. */
-SHARED void bounce_projected_contact(const projected_contact *c, read_contact_freedoms f,
-                                     write_contact_impulses impulses, tree_freedoms *z, uint pairs, mask *pushed)
+SHARED void bounce_projected_contact(const listed_contact *c, const projected_contact *rows, const tree_contacts *s,
+                                     write_contact_impulses impulses, tree_freedoms *z, mask *pushed)
 {
   vec4 target_velocity = load_float4(impulses.restitution, c->i),
-       highest = load_float4(impulses.restitution, c->i + pairs);
+       highest = load_float4(impulses.restitution, c->i + s->pairs);
   mask bounces = c->wanted & ((target_velocity.x >= R(0.0)) | (target_velocity.y >= R(0.0)) |
                               (target_velocity.z >= R(0.0)) | (target_velocity.w >= R(0.0)));
   if (!any_of(bounces)) return;
-  vec4 before = load_float4(impulses.normal, c->i);
-  tree_normals s = load_tree_normals(c, f, z, before);
-  for (uint round = 0; round < RESTITUTION_ROUNDS; ++round) bounce_tree_normals(&s, target_velocity, highest);
-  store_float4_if(bounces, impulses.normal, c->i, s.impulse);
-  push_by_normals_if(bounces, c, z, before, s.impulse, pushed);
+  tree_normals normals =
+      load_tree_normals(c, s->freedoms, s->places.stride, speeds_of_freedoms(rows, c->moved, ROWS_OF_NORMALS, z));
+  for (uint round = 0; round < RESTITUTION_ROUNDS; ++round) bounce_tree_normals(&normals, target_velocity, highest);
+  store_float4_if(bounces, impulses.normal, c->i, normals.impulse);
+  push_by_normals_if(bounces, rows, c->moved, z, c->normal, normals.impulse, pushed);
 }
 
 SHARED void end_moving_if(mask wanted, const articulation *t, const tree_freedoms *z, mask pushed)
@@ -293,20 +329,29 @@ SHARED void solve_tree_contacts_item(GLOBAL const Parameters *parameters, read_c
   articulation t = articulation_in_pass(links, states, tree, pass);
   listed = choose(has_links(&t), listed, (uint_lanes)0u);
   mask touches = listed > 0u, pushed = touches & !touches;
-  uint pairs = planes_of(counts).stride, biased = kind_of_pass(pass) == (uint)PASS_BIASED ? 1u : 0u;
-  contact_places places = places_of_contacts(counts);
+  tree_contacts s = {contacts,
+                     freedoms,
+                     constraint_slop,
+                     states.contact,
+                     places_of_contacts(counts),
+                     planes_of(counts).stride,
+                     kind_of_pass(pass) == (uint)PASS_BIASED ? 1u : 0u};
   tree_freedoms z;
   begin_freedoms(&t, &z);
+#ifdef READS_AHEAD
+  listed_contact ahead = load_listed_contact(parameters, &s, contact_impulses, tree, listed, 0u);
+#endif
   for (uint n = 0u; any_of(n < listed); ++n) {
-    mask wanted = n < listed;
-    uint_lanes at = choose(wanted, load_uint(states.contact, TREE_COLORS * tree + n), (uint_lanes)0u), place = at;
-    if (places.by_tree) place = place_by_tree(places, tree, (uint_lanes)n);
-    projected_contact c;
-    load_projected_contact(wanted, freedoms, places.stride, at, place, &c);
-    if (pass == (uint)PASS_BOUNCING) bounce_projected_contact(&c, freedoms, contact_impulses, &z, pairs, &pushed);
-    else
-      solve_projected_contact(parameters, &c, contacts, freedoms, constraint_slop, contact_impulses, &z, pairs, biased,
-                              &pushed);
+#ifdef READS_AHEAD
+    listed_contact c = ahead;
+    ahead = load_listed_contact(parameters, &s, contact_impulses, tree, listed, n + 1u);
+#else
+    listed_contact c = load_listed_contact(parameters, &s, contact_impulses, tree, listed, n);
+#endif
+    projected_contact rows;
+    load_projections(&rows, freedoms, s.places.stride, &c);
+    if (pass == (uint)PASS_BOUNCING) bounce_projected_contact(&c, &rows, &s, contact_impulses, &z, &pushed);
+    else solve_projected_contact(parameters, &c, &rows, &s, contact_impulses, &z, &pushed);
   }
   end_moving_if(touches, &t, &z, pushed);
 }
