@@ -148,7 +148,7 @@ Worlds::Controls::Controls(const World::Implementation &engine, const SceneTable
           fmt::format("choose_controls: entry {}: world {}: joint {}: ", k, engine.first_world + world, axes[k].joint);
       if (axes[k].joint >= tables.joints(world))
         throw InputError(fmt::format("{}it does not exist; the world has {} joints", where, tables.joints(world)));
-      targets_.push_back(checked_target(engine, tables.first_joint(world) + axes[k].joint, axes[k], where));
+      add_checked_target(engine, tables.first_joint(world) + axes[k].joint, axes[k], where);
     }
 }
 
@@ -160,25 +160,17 @@ Worlds::Controls::Controls(const World::Implementation &engine, const SceneTable
   actuators_.assign(actuators.begin(), actuators.end());
 }
 
-Worlds::Controls::Target Worlds::Controls::checked_target(const World::Implementation &engine, uint32_t joint,
-                                                          const ControlledAxis &control, const std::string &where)
+void Worlds::Controls::add_checked_target(const World::Implementation &engine, uint32_t joint,
+                                          const ControlledAxis &control, const std::string &where)
 {
   check_control(engine.scene.joints[joint], engine.is_in_tree(joint), control, where);
-  return target_of(engine, joint, control);
+  add_target(engine, joint, control);
 }
 
-Worlds::Controls::Target Worlds::Controls::target_of(const World::Implementation &engine, uint32_t joint,
-                                                     const ControlledAxis &control)
+void Worlds::Controls::add_target(const World::Implementation &engine, uint32_t joint, const ControlledAxis &control)
 {
   const Joint &whole = engine.scene.joints[joint];
-  JointAxis axis = axis_of(whole, control.axis);
-  Target target{joint, Buffer::link_range, 0, controlled_number(axis, control.what), 0, 0, 0};
-  controlled_number(axis, control.what) = 0;
-  const auto rows = row_of_axis(axis);
-  target.damping = rows[1].y;
-  target.rest = rows[0].w;
-  target.surely = std::numeric_limits<float>::max();
-  if (control.what == Control::force) target.surely = std::min(target.surely, 0.999f * fastest_damper * target.damping);
+  Target target{joint, Buffer::link_range, 0};
   size_t row = 0;
   if (engine.is_in_tree(joint) && !has_rows_besides_tree(whole)) {
     const TreePlace &place = engine.links.places[engine.links.of_joint[joint]];
@@ -189,14 +181,34 @@ Worlds::Controls::Target Worlds::Controls::target_of(const World::Implementation
     row = plane * engine.scene.joints.size() + engine.joint_order.place_of(joint);
   }
   target.place = static_cast<uint32_t>(4 * row + (control.what == Control::target_position ? 2 : 3));
-  return target;
+  add_map(axis_of(whole, control.axis), control);
+  targets_.push_back(target);
+}
+
+void Worlds::Controls::add_map(const JointAxis &axis, const ControlledAxis &control)
+{
+  JointAxis rest = axis;
+  maps_.value.push_back(controlled_number(rest, control.what));
+  controlled_number(rest, control.what) = 0;
+  const auto rows = row_of_axis(rest);
+  const float damping = rows[1].y;
+  const bool is_force = control.what == Control::force, is_position = control.what == Control::target_position;
+  maps_.divisor.push_back(is_force ? damping : 1);
+  maps_.rest.push_back(is_force || (damping > 0 && !is_position) ? rows[0].w : -0.0f);
+  const size_t number = targets_.size() % count();
+  float surely = std::numeric_limits<float>::max();
+  if (is_force) surely = std::min(surely, 0.999f * fastest_damper * damping);
+  if (maps_.surely.size() <= number) maps_.surely.push_back(surely);
+  else maps_.surely[number] = std::min(maps_.surely[number], surely);
 }
 
 /* Joints that came or went since have moved the rows; the values are those that other calls have set since. */
 void Worlds::Controls::find_targets_anew(World::Implementation &engine)
 {
   if (joints_number_ == engine.joints_number) return;
-  std::vector<Target> targets;
+  Controls found = *this;
+  found.targets_.clear();
+  found.maps_ = {};
   for (size_t i = 0; i < targets_.size(); ++i) {
     const uint32_t joint = targets_[i].joint;
     const ControlledAxis &control = chosen_[i % count()];
@@ -204,24 +216,13 @@ void Worlds::Controls::find_targets_anew(World::Implementation &engine)
     const auto where = [&] {
       return fmt::format("set_controls: control {} of world {}: ", i % count(), engine.first_world + i / count());
     };
-    targets.push_back(broke ? target_of(engine, joint, control) : checked_target(engine, joint, control, where()));
+    if (broke) found.add_target(engine, joint, control);
+    else found.add_checked_target(engine, joint, control, where());
   }
-  targets_ = std::move(targets);
+  *this = std::move(found);
   of_all_.clear();
   has_places_of_all_ = false;
   joints_number_ = engine.joints_number;
-}
-
-/* As row_of_axis has it. */
-float Worlds::Controls::number_written(size_t target) const
-{
-  const Target &one = targets_[target];
-  switch (chosen_[target % count()].what) {
-  case Control::target_position: return one.value;
-  case Control::force: return one.rest + one.value / one.damping;
-  case Control::target_velocity: break;
-  }
-  return one.damping > 0 ? one.value + one.rest : one.value;
 }
 
 void Worlds::Controls::find_numbers(const float *values, float *numbers) const
@@ -232,13 +233,12 @@ void Worlds::Controls::find_numbers(const float *values, float *numbers) const
 
 void Worlds::Controls::check(uint32_t world, uint32_t in_message, const float *values, const float *numbers) const
 {
-  const Target *targets = &targets_[world * count()];
   bool are_held = true;
-  for (size_t k = 0; k < count(); ++k) are_held &= std::abs(numbers[k]) <= targets[k].surely;
+  for (size_t k = 0; k < count(); ++k) are_held &= std::abs(numbers[k]) <= maps_.surely[k];
   if (are_held) return;
   for (size_t k = 0; k < count(); ++k) {
     const bool is_force = chosen_[k].what == Control::force;
-    const float damping = targets[k].damping;
+    const float damping = maps_.divisor[world * count() + k];
     if (std::isfinite(numbers[k]) && (!is_force || can_hold(damping, numbers[k]))) continue;
     const bool is_mapped = !actuators_.empty() && std::isfinite(values[k]);
     throw InputError(fmt::format(
@@ -249,19 +249,27 @@ void Worlds::Controls::check(uint32_t world, uint32_t in_message, const float *v
   }
 }
 
+void Worlds::Controls::find_written(size_t world, const float *numbers, float *written) const
+{
+  const float *rest = &maps_.rest[world * count()], *divisor = &maps_.divisor[world * count()];
+  for (size_t k = 0; k < count(); ++k) written[k] = rest[k] + numbers[k] / divisor[k];
+}
+
 /* A force and a target velocity of one axis have the bits of row_of_axis, whichever of them is written. */
 void Worlds::Controls::keep(uint32_t world, const float *numbers)
 {
   const size_t first = world * count();
-  Target *targets = &targets_[first];
-  for (size_t k = 0; k < count(); ++k) {
-    Target &target = targets[k];
-    target.value = numbers[k];
-    if (partner_[k] == no_partner) continue;
-    const bool is_force = chosen_[k].what == Control::force;
-    targets[partner_[k]].rest = is_force ? target.value / target.damping : target.value;
-  }
-  for (size_t k = 0; k < count(); ++k) written_[first + k] = number_written(first + k);
+  std::copy_n(numbers, count(), &maps_.value[first]);
+  for (size_t k = 0; k < count(); ++k)
+    if (partner_[k] != no_partner) maps_.rest[first + partner_[k]] = numbers[k] / maps_.divisor[first + k];
+  find_written(world, numbers, &written_[first]);
+}
+
+/* Whether what is found before a call sets anything becomes what it sets: of all worlds in order, and without partners,
+ * of which each changes the rest of the other one. */
+bool Worlds::Controls::is_swapped() const
+{
+  return is_of_all_ && std::all_of(partner_.begin(), partner_.end(), [](size_t k) { return k == no_partner; });
 }
 
 /* Of two partners the first one does, so that no number is written twice at the same time. */
@@ -336,23 +344,32 @@ void Worlds::Controls::prepare(World::Implementation &engine, std::span<const ui
   worlds_.assign(worlds.begin(), worlds.end());
   if (values.empty()) return;
   find_targets_anew(engine);
+  is_of_all_ = worlds.size() * count() == targets_.size() && are_distinct(worlds);
+  written_.resize(targets_.size());
+  next_written_.resize(targets_.size());
   numbers_.resize(values.size());
+  const bool swaps = is_swapped();
   for_each_world(worlds, [&](size_t i) {
-    find_numbers(&values[i * count()], &numbers_[i * count()]);
-    check(worlds[i], engine.first_world + worlds[i], &values[i * count()], &numbers_[i * count()]);
+    float *numbers = &numbers_[i * count()];
+    find_numbers(&values[i * count()], numbers);
+    check(worlds[i], engine.first_world + worlds[i], &values[i * count()], numbers);
+    if (swaps) find_written(i, numbers, &next_written_[i * count()]);
   });
   engine.settle();
   engine.buffers.make_ready(engine.sizes());
-  is_of_all_ = worlds.size() * count() == targets_.size() && are_distinct(worlds);
   if (!is_of_all_) of_some_ = written_of(worlds);
-  written_.resize(targets_.size());
   for (const Written &written : is_of_all_ ? written_of_all() : of_some_) make_room(engine.memory, written);
 }
 
 void Worlds::Controls::set(World::Implementation &engine)
 {
   if (worlds_.empty() || count() == 0) return;
-  for_each_world(worlds_, [&](size_t i) { keep(worlds_[i], &numbers_[i * count()]); });
+  if (is_swapped()) {
+    std::swap(maps_.value, numbers_);
+    std::swap(written_, next_written_);
+  } else {
+    for_each_world(worlds_, [&](size_t i) { keep(worlds_[i], &numbers_[i * count()]); });
+  }
   ++engine.state;
   scene_is_behind_ = true;
   for (const Written &written : is_of_all_ ? of_all_ : of_some_) write(engine, written);
@@ -363,7 +380,7 @@ void Worlds::Controls::write_scene(Scene &scene)
   if (!scene_is_behind_) return;
   for (size_t i = 0; i < targets_.size(); ++i) {
     const ControlledAxis &control = chosen_[i % count()];
-    controlled_number(axis_of(scene.joints[targets_[i].joint], control.axis), control.what) = targets_[i].value;
+    controlled_number(axis_of(scene.joints[targets_[i].joint], control.axis), control.what) = maps_.value[i];
   }
   scene_is_behind_ = false;
 }
