@@ -90,6 +90,18 @@ typedef struct __attribute__((aligned(16))) float4 {
 } float4;
 #endif
 
+#if defined(__SSE__) && !defined(TANDEM_REFERENCE)
+/* Whether the boxes from `lower` to `upper` overlap, of which w counts for nothing: two comparisons in place of six. */
+#define OVERLAPS_AT_ONCE
+typedef float floats_of_row __attribute__((vector_size(16), may_alias));
+static inline int rows_overlap(floats_of_row lower, floats_of_row upper, const float4 *box)
+{
+  const floats_of_row *other = (const floats_of_row *)box;
+  floats_of_row both = (floats_of_row)((lower <= other[1]) & (other[0] <= upper));
+  return (__builtin_ia32_movmskps(both) & 7) == 7;
+}
+#endif
+
 static inline uint float_bits(float x)
 {
   uint bits;

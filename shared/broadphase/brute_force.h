@@ -17,7 +17,7 @@ SHARED uint marks_of_overlaps(GLOBAL const float4 *bounds, box_bounds own, uint 
 {
   uint bits = 0u;
   for (uint b = first; b < a; ++b)
-    bits |= (bounds_overlap_at_once(own, load_bounds(bounds, b)) ? 1u : 0u) << (b - first);
+    bits |= (overlaps_body_at_once(own, bounds, b) ? 1u : 0u) << (b - first);
   return bits;
 }
 

@@ -174,7 +174,7 @@ SHARED void filter_candidates_item(GLOBAL const float4 *bounds, GLOBAL const uin
   for (uint at = first; at < end; ++at) {
     uint b = kept.b[at];
     candidate_found[to] = b;
-    to += bounds_overlap_at_once(own, load_bounds(bounds, b)) ? 1u : 0u;
+    to += overlaps_body_at_once(own, bounds, b) ? 1u : 0u;
   }
   pair_start[a] = to - first;
 }

@@ -26,11 +26,17 @@ SHARED int bounds_overlap(box_bounds p, box_bounds q)
          p.lower.z <= q.upper.z && q.lower.z <= p.upper.z;
 }
 
-/* The same without branches, for boxes that overlap about as often as not. */
-SHARED int bounds_overlap_at_once(box_bounds p, box_bounds q)
+/* The same with the bounds of a body, without branches, for boxes that overlap about as often as not. */
+SHARED int overlaps_body_at_once(box_bounds p, GLOBAL const float4 *bounds, uint body)
 {
+#ifdef OVERLAPS_AT_ONCE
+  floats_of_row lower = {p.lower.x, p.lower.y, p.lower.z, 0.0f}, upper = {p.upper.x, p.upper.y, p.upper.z, 0.0f};
+  return rows_overlap(lower, upper, bounds + 2u * body);
+#else
+  box_bounds q = load_bounds(bounds, body);
   return (p.lower.x <= q.upper.x) & (q.lower.x <= p.upper.x) & (p.lower.y <= q.upper.y) & (q.lower.y <= p.upper.y) &
          (p.lower.z <= q.upper.z) & (q.lower.z <= p.upper.z);
+#endif
 }
 
 /* A trigger meets every body that is not a trigger, if one of the two moves, even if only by its given velocity. Two
