@@ -220,8 +220,7 @@ void World::Implementation::undo(const Attempt &before) noexcept
   const PairCapacity grown = capacity();
   plan = before.plan;
   plan.apart = false; /* an attempt may have left lists and colours of other pairs */
-  plan.forgets_wishes = true;
-  plan.wishes_left = sides_of_wishes;
+  rows_bring_wishes();
   if (plan.substeps.automatic) told_substeps = {}; /* it may have left the parameters of some islands */
   set_capacity(grown);
   plan.sleepers = !sleepers.empty();
@@ -332,6 +331,13 @@ void World::Implementation::accept() noexcept
   settle_substeps(plan.substeps, plan.known[COUNT_LOAD_RATE], settings);
   settle_islands();
   note_sorted();
+}
+
+/* To be called where rows come among those awake that no step has cleared: steps clear only where wishes may be. */
+void World::Implementation::rows_bring_wishes() noexcept
+{
+  plan.forgets_wishes = true;
+  plan.wishes_left = sides_of_wishes;
 }
 
 /* Impulses of islands apart are those of the fewest substeps. Other steps leave the wishes of those that want more. */
