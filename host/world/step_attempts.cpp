@@ -364,18 +364,27 @@ uint32_t World::Implementation::classes_needed() const noexcept
   return classes != 0 ? classes : FEW_SUBSTEPS;
 }
 
+/* An attempt that left a class of bodies out, or did not find whole islands, says nothing of what joints bear. Whether
+ * there was one depends on what the host guessed, so it must leave no trace. Passes for bodies that are not there do no
+ * harm to that. */
+bool World::Implementation::divides_wrongly(uint32_t status) const noexcept
+{
+  return plan.islands_apart && ((status & STATUS_ISLANDS) || (classes_needed() & ~plan.classes) != 0);
+}
+
 void World::Implementation::prepare_repetition(uint32_t status, bool &may_forget)
 {
-  if (status & (lacks_contacts | STATUS_WAKE | STATUS_DEADLOCK)) plan.forgets_wishes = true;
+  const bool tells_loads = !(status & lacks_contacts) && !divides_wrongly(status);
+  if (!tells_loads || (status & STATUS_DEADLOCK)) plan.forgets_wishes = true;
   if (status & STATUS_DEADLOCK) {
     if (plan.substeps.automatic) told_substeps = {};
     return backends.do_without_resident_groups();
   }
   plan_more_colors(status);
   if (status & STATUS_ISLANDS) plan.island_rounds = std::min(2 * plan.island_rounds, most_rounds);
-  if ((status & STATUS_SUBSTEPS) && !(status & lacks_contacts))
-    raise_substeps(plan.substeps, plan.known[COUNT_LOAD_RATE], settings);
-  plan.classes = plan.known[COUNT_LATE_WISHES] != 0 ? FEW_SUBSTEPS | MANY_SUBSTEPS : classes_needed();
+  if ((status & STATUS_SUBSTEPS) && tells_loads) raise_substeps(plan.substeps, plan.known[COUNT_LOAD_RATE], settings);
+  const bool is_late = tells_loads && plan.known[COUNT_LATE_WISHES] != 0;
+  plan.classes = is_late ? FEW_SUBSTEPS | MANY_SUBSTEPS : classes_needed();
   if (plan.colors > COLOR_LIMIT && !(status & lacks_pairs)) enlarge(capacity());
   if (status & STATUS_NONFINITE) quarantine_from(plan.known[COUNT_NONFINITE], status);
   note_sorted();
