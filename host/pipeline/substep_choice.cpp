@@ -2,10 +2,13 @@
 #include "host/pipeline/substep_choice.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 
 #include <tandem/round_to_float.h>
+
+#include "host/base/hash.h"
 
 namespace tandem {
 namespace {
@@ -118,6 +121,7 @@ uint32_t highest_load_rate(const SubstepChoice &choice, const Settings &settings
 
 void raise_substeps(SubstepChoice &choice, uint32_t load_rate, const Settings &settings)
 {
+  if (load_rate <= highest_load_rate_of(settings, choice.now)) return;
   while (load_rate > highest_load_rate_of(settings, choice.now)) choice.now *= 2;
   choice.calm_steps = 0;
 }
@@ -138,6 +142,14 @@ void settle_substeps(SubstepChoice &choice, uint32_t load_rate, const Settings &
   if (!is_a_second(choice.calm_steps, settings)) return;
   choice.now = half;
   choice.calm_steps = 0;
+}
+
+uint64_t hash_choice(const SubstepChoice &choice, uint64_t seed)
+{
+  const auto &[automatic, starts, now, of_cache, calm_steps, layers_at_start] = choice;
+  if (!automatic) return seed;
+  const std::array<uint32_t, 5> words{starts, now, of_cache, calm_steps, layers_at_start};
+  return hash_bytes(words.data(), sizeof words, seed);
 }
 
 SubstepChoice choice_of_few(const SubstepChoice &choice, const Settings &settings)

@@ -34,7 +34,8 @@ SubstepChoice first_choice(const Settings &settings);
 /* COUNT_LOAD_RATE up to which these substeps suffice. */
 uint32_t highest_load_rate(const SubstepChoice &choice, const Settings &settings);
 
-/* After an attempt that needed more: so many that COUNT_LOAD_RATE is not above highest_load_rate, or the most. */
+/* After an attempt that needed more: so many that COUNT_LOAD_RATE is not above highest_load_rate, or the most. An
+ * attempt that had enough changes nothing, because how often a step is run again depends on what the host guessed. */
 void raise_substeps(SubstepChoice &choice, uint32_t load_rate, const Settings &settings);
 
 /* After the first step. */
@@ -42,6 +43,9 @@ void note_start(SubstepChoice &choice, uint32_t braced_layers);
 
 /* After a step that is done. */
 void settle_substeps(SubstepChoice &choice, uint32_t load_rate, const Settings &settings);
+
+/* Of all that decides the substeps of steps to come; the seed itself for a world that is told its number. */
+uint64_t hash_choice(const SubstepChoice &choice, uint64_t seed);
 
 /* The same world, as far as it takes the fewest. */
 SubstepChoice choice_of_few(const SubstepChoice &choice, const Settings &settings);

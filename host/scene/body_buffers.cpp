@@ -249,6 +249,13 @@ void stage_shapes(StagedUploads &uploads, const Scene &scene, const std::vector<
   bodies.stage(uploads, 0);
 }
 
+void stage_no_past(StagedUploads &uploads, size_t first, size_t bodies)
+{
+  uploads.add(Buffer::resting_steps, std::vector<uint32_t>(bodies), first);
+  uploads.add(Buffer::cached_standing, std::vector<uint32_t>(2 * bodies), first);
+  uploads.add(Buffer::cached_wish, std::vector<uint32_t>(bodies), first);
+}
+
 void stage_new_bodies(StagedUploads &uploads, const Scene &scene, const HullNumbers &hulls,
                       std::span<const uint32_t> bodies, uint32_t first)
 {
@@ -264,10 +271,7 @@ void stage_new_bodies(StagedUploads &uploads, const Scene &scene, const HullNumb
   masses.stage(uploads, first);
   uploads.add(Buffer::body_force, std::vector<float4>(2 * bodies.size()), first);
   uploads.add(Buffer::body_tree, std::vector<uint32_t>(2 * bodies.size(), INDEX_NONE), first);
-  /* The places may be those of bodies of a state that was gone back from. */
-  uploads.add(Buffer::resting_steps, std::vector<uint32_t>(bodies.size()), first);
-  uploads.add(Buffer::cached_standing, std::vector<uint32_t>(2 * bodies.size()), first);
-  uploads.add(Buffer::cached_wish, std::vector<uint32_t>(bodies.size()), first);
+  stage_no_past(uploads, first, bodies.size());
   states.stage(uploads, first);
   shapes.stage(uploads, first);
 }

@@ -34,6 +34,9 @@ void stage_shapes(StagedUploads &uploads, const Scene &scene, const std::vector<
 /* Stages all rows of bodies without children, to the indices from `first` on. */
 void stage_new_bodies(StagedUploads &uploads, const Scene &scene, const HullNumbers &hulls,
                       std::span<const uint32_t> bodies, uint32_t first);
+/* Stages what steps remember of new bodies: nothing, though others may have had their places, in a state that was gone
+ * back from, too. */
+void stage_no_past(StagedUploads &uploads, size_t first, size_t bodies);
 /* Stages what follows from properties of bodies (BodyProperties): mass, flags and filter of consecutive bodies, and
  * flags and filters of the children of one. */
 void stage_properties(StagedUploads &uploads, const Scene &scene, std::span<const uint32_t> bodies, uint32_t first,

@@ -360,6 +360,7 @@ void World::Implementation::place_among_others(const Arrival &arrival)
   ++state;
   uploads.write(memory);
   bring_forward(appended); /* between those awake and those asleep */
+  rows_bring_wishes();
   counted_bodies = special.awake;
   forget_kept(memory);
   if (sleepers.empty()) return;
@@ -420,6 +421,7 @@ void World::Implementation::stage_arrival(StagedUploads &uploads, const Arrival 
   for (uint32_t index = 0; index < bodies(); ++index) {
     const uint32_t slot = special.order[index];
     if (is_new.contains(slot)) stage_module_rows(uploads, buffers.needs().touched, index, 1);
+    if (is_new.contains(slot)) stage_no_past(uploads, index, 1);
     if (is_new.contains(slot) || is_restated.contains(slot)) stage_states(uploads, scene, std::span(&slot, 1), index);
   }
 }
@@ -462,6 +464,7 @@ void World::Implementation::lay_out_anew(const Arrival &arrival, const JointImpu
   backup.drop();
 
   number_bodies();
+  rows_bring_wishes();
   order_of_events.swap(order_before);
   ++state;
   uploads.write(memory);

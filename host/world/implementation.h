@@ -172,6 +172,8 @@ struct World::Implementation {
   void prepare_repetition(uint32_t status, bool &may_forget);
   void settle_islands() noexcept;
   uint32_t classes_needed() const noexcept;
+  bool divides_wrongly(uint32_t status) const noexcept;
+  void rows_bring_wishes() noexcept;
   bool candidates_overflow() const;
   uint32_t pairs_needed() const;
   void grow_pairs(bool &may_forget);

@@ -426,6 +426,7 @@ void World::Implementation::wake(const std::set<uint32_t> &islands)
   memory.upload(Buffer::resting_steps, none.data(), none.size() * sizeof(uint32_t), first * sizeof(uint32_t));
   for (const uint32_t slot : bodies_woken) sleep_events_to_come.push_back({slots.id_of(slot), false});
   awake_dynamics += static_cast<uint32_t>(bodies_woken.size());
+  rows_bring_wishes();
   sleepers_changed(!is_table_right() || sleepers.count() < sorted_sleepers / 2); /* many entries would be empty */
 }
 

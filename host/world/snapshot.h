@@ -26,7 +26,7 @@
 
 namespace tandem {
 
-constexpr SealedKind snapshot_kind{{'T', 'A', 'N', 'D', 'E', 'M', 'S', '\n'}, 12, "snapshot"};
+constexpr SealedKind snapshot_kind{{'T', 'A', 'N', 'D', 'E', 'M', 'S', '\n'}, 13, "snapshot"};
 
 /* A buffer's items in use. */
 struct SavedBuffer {

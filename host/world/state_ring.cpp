@@ -386,7 +386,8 @@ void World::Implementation::go_back(uint32_t states)
   sleep_events_to_come.swap(sleep_events_then);
   plan.drowsy = then.drowsy;
   plan.substeps = then.substeps;
-  plan.wishes_left = sides_of_wishes; /* steps since then may have written them */
+  told_substeps = {};  /* with joints, kernels were told those of the state that is left */
+  rows_bring_wishes(); /* steps since then may have written them */
   if (settings.sleeping) recount_motion();
 }
 

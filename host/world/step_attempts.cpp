@@ -220,8 +220,7 @@ void World::Implementation::undo(const Attempt &before) noexcept
   const PairCapacity grown = capacity();
   plan = before.plan;
   plan.apart = false; /* an attempt may have left lists and colours of other pairs */
-  plan.forgets_wishes = true;
-  plan.wishes_left = sides_of_wishes;
+  rows_bring_wishes();
   if (plan.substeps.automatic) told_substeps = {}; /* it may have left the parameters of some islands */
   set_capacity(grown);
   plan.sleepers = !sleepers.empty();
@@ -334,6 +333,13 @@ void World::Implementation::accept() noexcept
   note_sorted();
 }
 
+/* To be called where rows come among those awake that no step has cleared: steps clear only where wishes may be. */
+void World::Implementation::rows_bring_wishes() noexcept
+{
+  plan.forgets_wishes = true;
+  plan.wishes_left = sides_of_wishes;
+}
+
 /* Impulses of islands apart are those of the fewest substeps. Other steps leave the wishes of those that want more. */
 void World::Implementation::settle_islands() noexcept
 {
@@ -358,18 +364,27 @@ uint32_t World::Implementation::classes_needed() const noexcept
   return classes != 0 ? classes : FEW_SUBSTEPS;
 }
 
+/* An attempt that left a class of bodies out, or did not find whole islands, says nothing of what joints bear. Whether
+ * there was one depends on what the host guessed, so it must leave no trace. Passes for bodies that are not there do no
+ * harm to that. */
+bool World::Implementation::divides_wrongly(uint32_t status) const noexcept
+{
+  return plan.islands_apart && ((status & STATUS_ISLANDS) || (classes_needed() & ~plan.classes) != 0);
+}
+
 void World::Implementation::prepare_repetition(uint32_t status, bool &may_forget)
 {
-  if (status & (lacks_contacts | STATUS_WAKE | STATUS_DEADLOCK)) plan.forgets_wishes = true;
+  const bool tells_loads = !(status & lacks_contacts) && !divides_wrongly(status);
+  if (!tells_loads || (status & STATUS_DEADLOCK)) plan.forgets_wishes = true;
   if (status & STATUS_DEADLOCK) {
     if (plan.substeps.automatic) told_substeps = {};
     return backends.do_without_resident_groups();
   }
   plan_more_colors(status);
   if (status & STATUS_ISLANDS) plan.island_rounds = std::min(2 * plan.island_rounds, most_rounds);
-  if ((status & STATUS_SUBSTEPS) && !(status & lacks_contacts))
-    raise_substeps(plan.substeps, plan.known[COUNT_LOAD_RATE], settings);
-  plan.classes = plan.known[COUNT_LATE_WISHES] != 0 ? FEW_SUBSTEPS | MANY_SUBSTEPS : classes_needed();
+  if ((status & STATUS_SUBSTEPS) && tells_loads) raise_substeps(plan.substeps, plan.known[COUNT_LOAD_RATE], settings);
+  const bool is_late = tells_loads && plan.known[COUNT_LATE_WISHES] != 0;
+  plan.classes = is_late ? FEW_SUBSTEPS | MANY_SUBSTEPS : classes_needed();
   if (plan.colors > COLOR_LIMIT && !(status & lacks_pairs)) enlarge(capacity());
   if (status & STATUS_NONFINITE) quarantine_from(plan.known[COUNT_NONFINITE], status);
   note_sorted();

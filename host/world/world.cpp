@@ -304,7 +304,7 @@ uint64_t World::Implementation::state_hash()
   settle();
   uint64_t hash = hash_sleepers(hash_carried(memory, buffers.carried(), {bodies(), special.awake}, scene_features));
   for (const Quarantine &taken : quarantined) hash = hash_bytes(&taken.body, sizeof taken.body, hash);
-  return hash;
+  return hash_choice(plan.substeps, hash);
 }
 
 void World::finish()

@@ -70,7 +70,8 @@ SHARED pair_motion load_pair_motion(read_bodies bodies, GLOBAL const Parameters 
 /* By how much the speed at which gravity closes a gap may exceed its average, along a unit normal from a to b, m/s. A
  * body falls on the exact parabola (integrate/positions.h), but a contact looks ahead along the symplectic Euler step.
  * In the last substep that step falls further by half of the velocity that gravity adds in it. If gravity separates two
- * bodies, they were nearer before. */
+ * bodies, they were nearer before. Where islands take different numbers of substeps this is the substep of the few, for
+ * all of them, which is the longest: the bound is then larger than the many need. */
 SHARED real closing_beyond_mean(GLOBAL const Parameters *parameters, pair_motion m, vec3 normal)
 {
   real closing = dot3(m.fall, normal), last_substep = parameters->substep / parameters->step;

@@ -152,6 +152,32 @@ TEST_CASE("automatic substeps: raised to what bears the rate, and halved after a
   CHECK(choice.of_cache == 64);
 }
 
+TEST_CASE("automatic substeps: an attempt that had enough leaves the second of calm", "[physics]")
+{
+  SubstepChoice choice = first_choice(automatic());
+  Settings settings = automatic();
+  settings.step = 1.0f / 64;
+  raise_substeps(choice, bits_of(1000.0f * 1000.0f), settings);
+  for (int i = 0; i < 63; ++i) settle_substeps(choice, bits_of(500.0f * 500.0f), settings);
+  raise_substeps(choice, bits_of(1000.0f * 1000.0f), settings);
+  CHECK(choice.now == 16);
+  settle_substeps(choice, bits_of(500.0f * 500.0f), settings);
+  CHECK(choice.now == 8);
+}
+
+TEST_CASE("automatic substeps: the hash of a choice is of all that decides the next ones", "[physics]")
+{
+  const SubstepChoice first = first_choice(automatic());
+  std::vector<SubstepChoice> others(5, first);
+  others[0].starts = false;
+  others[1].now = 8;
+  others[2].of_cache = 8;
+  others[3].calm_steps = 1;
+  others[4].layers_at_start = 17;
+  for (const SubstepChoice &other : others) CHECK(hash_choice(other, 5) != hash_choice(first, 5));
+  CHECK(hash_choice(first_choice(settings_with(1.0 / 60)), 5) == 5); /* told, as it always was */
+}
+
 TEST_CASE("automatic substeps: four bear less in short steps, whose contacts are softer than they could be",
           "[physics]")
 {

@@ -78,6 +78,103 @@ double energy_of(World &world, const Scene &scene)
 
 uint32_t took_more(World &world) { return world.statistics().bodies_with_more_substeps; }
 
+/* A column that wants 8 substeps, and a pendulum that takes as many, because a rod that never ends joins them. */
+Scene column_and_pendulum()
+{
+  Scene scene = empty_scene();
+  add_ground(scene);
+  add_laden_column(scene, 0);
+  scene.bodies.back().mass = 300;
+  const auto ball = uint32_t(scene.bodies.size());
+  add_body(scene, BodyType::dynamic, sphere_shape(0.3f), {10, 5, 0});
+  Joint rod;
+  rod.type = JointType::distance;
+  rod.body_a = 1;
+  rod.body_b = ball;
+  rod.directions[0].lower = 0;
+  rod.directions[0].upper = 100;
+  scene.joints.push_back(rod);
+  connect(scene, JointType::ball, no_body, ball, {8, 5, 0});
+  return scene;
+}
+
+/* A world that makes each step twice and goes back in between must make the steps of one that goes on. In step 20 its
+ * load goes, so that it comes down to four substeps. change: what it does before the step that is gone back from. */
+template <class Change> void goes_back_from_each_step(const Scene &scene, const Settings &settings, Change change)
+{
+  World straight(scene, settings, {}), returning(scene, settings, {});
+  returning.keep_states(2);
+  for (int step = 0; step < 100; ++step) {
+    if (step == 20)
+      for (World *world : {&straight, &returning}) world->set_mass(world->id_of(2), 1);
+    straight.step();
+    returning.step();
+    CAPTURE(step);
+    REQUIRE(returning.state_hash() == straight.state_hash());
+    change(returning);
+    returning.step();
+    returning.go_back(1);
+    REQUIRE(returning.state_hash() == straight.state_hash());
+  }
+  CHECK(straight.statistics().substeps == 4);
+}
+
+const auto no_change = [](World &) {};
+
+/* Must have the same state in each step, and take as many substeps in the next. */
+void go_on_alike(World &world, World &other, int steps)
+{
+  for (int step = 0; step < steps; ++step) {
+    world.step();
+    other.step();
+    CAPTURE(step);
+    REQUIRE(other.statistics().substeps == world.statistics().substeps);
+    REQUIRE(other.state_hash() == world.state_hash());
+  }
+}
+
+Scene column_and_rolling_ball()
+{
+  Scene scene = empty_scene();
+  add_ground(scene);
+  add_laden_column(scene, 0);
+  add_body(scene, BodyType::dynamic, sphere_shape(0.5f), {20, 0.5, 0}).linear_velocity = {0, 0, 3};
+  return scene;
+}
+
+Settings apart_and_sleeping()
+{
+  Settings settings = apart();
+  settings.sleeping = true;
+  return settings;
+}
+
+/* Of a column and a rolling ball: makes it a world of few, in which a box sleeps that wished for many. */
+void leave_a_sleeper(World &world)
+{
+  run(world, 20);
+  world.destroy_body(world.id_of(2));
+  run(world, 280);
+  REQUIRE(world.statistics().asleep == 1);
+  REQUIRE(world.statistics().substeps == 4);
+}
+
+Body box_at(double x, double y, float mass)
+{
+  Body body;
+  body.shape = 1;
+  body.mass = mass;
+  body.position = {x, y, 0};
+  return body;
+}
+
+/* Far from all others. */
+void create_laden_column(World &world)
+{
+  world.create_body(box_at(-60, 0.5, 1));
+  world.create_body(box_at(-60, 1.5, 1000));
+}
+
 } // namespace
 
 TEST_CASE("islands of substeps: what is far from loads has the bits of a world without them", "[physics]")
@@ -258,13 +355,186 @@ TEST_CASE("islands of substeps: a world with them may sleep and wake", "[physics
   add_ground(scene);
   add_laden_column(scene, 0);
   add_body(scene, BodyType::dynamic, box_shape(0.5f, 0.5f, 0.5f), {10, 0.5, 0});
-  Settings settings = apart();
-  settings.sleeping = true;
-  World world(scene, settings, {});
+  World world(scene, apart_and_sleeping(), {});
   run(world, 200);
   CHECK(world.statistics().asleep == 3);
   world.wake_body(world.body_ids()[2]);
   run(world, 5);
   CHECK(took_more(world) == 2);
   CHECK(1.5 - world.bodies()[2].position[1] < 0.02);
+}
+
+TEST_CASE("islands of substeps: going back over a fall of their number leaves the next steps as they were", "[physics]")
+{
+  const auto set_rod = [](World &world) {
+    Joint rod = world.scene().joints[0];
+    rod.directions[0].upper = 90;
+    world.set_joint(world.id_of_joint(0), rod);
+  };
+  goes_back_from_each_step(column_and_pendulum(), apart(), no_change);
+  goes_back_from_each_step(column_and_pendulum(), apart_and_sleeping(), no_change);
+  goes_back_from_each_step(column_and_pendulum(), apart(), set_rod);
+}
+
+TEST_CASE("islands of substeps: worlds of one number go back over its fall, too", "[physics]")
+{
+  Scene scene = column_and_pendulum();
+  scene.joints.erase(scene.joints.begin());
+  scene.articulations.emplace_back().joints = {0};
+  goes_back_from_each_step(scene, apart_and_sleeping(), no_change);
+}
+
+TEST_CASE("islands of substeps: restored worlds that all take many fall in the same steps", "[physics]")
+{
+  Scene scene = empty_scene();
+  add_ground(scene);
+  add_laden_column(scene, 0);
+  World world(scene, apart(), {});
+  run(world, 20);
+  world.set_mass(world.id_of(2), 40);
+  run(world, 30);
+  World restored(world.save(), Placement{});
+  go_on_alike(world, restored, 60);
+  CHECK(world.statistics().substeps == 8);
+}
+
+TEST_CASE("islands of substeps: chains that swing are restored in the midst of a second of calm", "[physics]")
+{
+  for (const char *name : {"four-bar:speed=20", "hinge-chain", "ragdolls:n=1"}) {
+    CAPTURE(name);
+    World world(load_scene(name), apart(), {});
+    run(world, 25);
+    World restored(world.save(), Placement{});
+    go_on_alike(world, restored, 120);
+  }
+}
+
+/* A world that was restored first looks for islands in few rounds, in which a long chain falls into several. */
+TEST_CASE("islands of substeps: an attempt that knows only parts of a chain leaves no trace", "[physics]")
+{
+  constexpr int links = 40;
+  Scene scene = empty_scene();
+  for (int k = 0; k < links; ++k) {
+    add_body(scene, BodyType::dynamic, sphere_shape(0.1f), {0.5 * (k + 1), 0, 0}).filter_mask = 0;
+    connect(scene, JointType::ball, k == 0 ? no_body : uint32_t(k - 1), uint32_t(k), {0.5 * k, 0, 0});
+  }
+  scene.bodies.back().mass = 20;
+  World world(scene, apart(), {});
+  run(world, 18);
+  for (int step = 0; step < 30; ++step) {
+    World restored(world.save(), Placement{});
+    go_on_alike(world, restored, 1);
+  }
+  CHECK(took_more(world) == links);
+}
+
+TEST_CASE("islands of substeps: going back to where fewer bodies took many leaves the second of calm", "[physics]")
+{
+  Scene scene = empty_scene();
+  add_ground(scene);
+  add_laden_column(scene, 0);
+  add_body(scene, BodyType::dynamic, sphere_shape(0.1f), {0.4, 5.5, 0});
+  World straight(scene, apart(), {}), returning(scene, apart(), {});
+  returning.keep_states(2);
+  bool has_returned = false;
+  for (int step = 0; step < 100; ++step) {
+    if (step == 20)
+      for (World *world : {&straight, &returning}) world->set_mass(world->id_of(2), 40);
+    go_on_alike(straight, returning, 1);
+    if (has_returned || took_more(returning) != 2) continue;
+    returning.step();
+    has_returned = took_more(returning) == 3;
+    returning.go_back(1);
+  }
+  CHECK(has_returned);
+  CHECK(straight.statistics().substeps == 8);
+}
+
+/* Once the column has gone nothing moves, and only the steps until the number falls are counted. */
+TEST_CASE("islands of substeps: the hash of the state tells how long a world has been calm", "[physics]")
+{
+  Scene scene = empty_scene();
+  add_ground(scene);
+  add_laden_column(scene, 0);
+  add_body(scene, BodyType::dynamic, box_shape(0.5f, 0.1f, 0.1f), {20, 5, 0}).gravity_factor = 0;
+  connect(scene, JointType::hinge, no_body, 3, {19.5, 5, 0}, Vector::UnitZ());
+  scene.articulations.emplace_back().joints = {0};
+  World world(scene, apart(), {});
+  run(world, 5);
+  world.destroy_bodies(std::vector{world.id_of(1), world.id_of(2)});
+  run(world, 10);
+  for (int step = 0; step < 10; ++step) {
+    const uint64_t state = world.state_hash(), bodies = world.body_hash();
+    world.step();
+    CHECK(world.statistics().substeps == 16);
+    CHECK(world.body_hash() == bodies);
+    CHECK(world.state_hash() != state);
+  }
+}
+
+TEST_CASE("islands of substeps: who slept after wishing for many takes few once the loads have gone", "[physics]")
+{
+  World world(column_and_rolling_ball(), apart_and_sleeping(), {});
+  leave_a_sleeper(world);
+  world.wake_body(world.id_of(1));
+  World restored(world.save(), Placement{});
+  go_on_alike(world, restored, 5);
+  create_laden_column(world);
+  create_laden_column(restored);
+  go_on_alike(world, restored, 5);
+  CHECK(took_more(world) == 2);
+}
+
+TEST_CASE("islands of substeps: a body in the place of one that slept after wishing takes few", "[physics]")
+{
+  World world(column_and_rolling_ball(), apart_and_sleeping(), {});
+  leave_a_sleeper(world);
+  world.destroy_body(world.id_of(1));
+  world.step();
+  world.create_body(box_at(5, 0.5, 1));
+  world.create_body(box_at(9, 0.5, 1));
+  run(world, 3);
+  create_laden_column(world);
+  run(world, 5);
+  CHECK(took_more(world) == 2);
+}
+
+TEST_CASE("islands of substeps: a body in the place of one that was gone back from takes few", "[physics]")
+{
+  for (const int steps : {3, 4}) { /* the buffers of wishes change sides with each */
+    CAPTURE(steps);
+    Scene scene = empty_scene();
+    add_ground(scene);
+    add_body(scene, BodyType::dynamic, box_shape(0.5f, 0.5f, 0.5f), {0, 0.5, 0});
+    World world(scene, apart(), {});
+    world.create_body(box_at(-20, 0.5, 1)); /* makes room for others */
+    world.keep_states(1, false);
+    create_laden_column(world);
+    run(world, 4);
+    REQUIRE(took_more(world) == 2);
+    world.go_back(0);
+    run(world, 4);
+    world.create_body(box_at(-40, 0.5, 1));
+    run(world, steps);
+    create_laden_column(world);
+    run(world, 4);
+    CHECK(took_more(world) == 2);
+  }
+}
+
+TEST_CASE("islands of substeps: a body of a new kind in the place of one that bore a load takes few", "[physics]")
+{
+  Scene scene = empty_scene();
+  add_ground(scene);
+  add_laden_column(scene, 0);
+  add_laden_column(scene, 20);
+  World world(scene, apart(), {});
+  run(world, 20);
+  world.destroy_bodies(std::vector{world.id_of(1), world.id_of(2)});
+  world.step();
+  Body ball = box_at(-20, 0.5, 1);
+  ball.shape = world.add_shape(sphere_shape(0.5f));
+  REQUIRE(world.create_body(ball).index <= 2);
+  run(world, 3);
+  CHECK(took_more(world) == 2);
 }

@@ -435,8 +435,9 @@ public:
   void read_bytes(Buffer buffer, void *to, size_t bytes);
 
   Statistics statistics();
-  /* A hash of the bodies, the contact cache, and the STATE and CACHE buffers of modules. If two worlds have equal
-   * scenes, settings and written buffers, it is equal iff their next steps will be equal. */
+  /* A hash of the bodies, the contact cache, the substeps that the world has chosen, and the STATE and CACHE buffers of
+   * modules. If two worlds have equal scenes, settings and written buffers, it is equal iff their next steps will be
+   * equal. */
   uint64_t state_hash();
   uint64_t body_hash(); /* poses and velocities alone */
   const std::vector<Quarantine> &quarantined() const;

@@ -341,9 +341,9 @@ TEST_CASE("messages about snapshots say what is wrong", "[sanitizer]")
   other[0] = std::byte{'P'};
   CHECK(message_of(other) == "snapshot: it is no snapshot of Tandem, which begins with 'TANDEMS'");
   other = snapshot;
-  other[8] = std::byte{13};
-  CHECK_THAT(message_of(other), ContainsSubstring("snapshot: the snapshot has format 13; Tandem ") &&
-                                    ContainsSubstring("reads format 12"));
+  other[8] = std::byte{14};
+  CHECK_THAT(message_of(other), ContainsSubstring("snapshot: the snapshot has format 14; Tandem ") &&
+                                    ContainsSubstring("reads format 13"));
   other = snapshot;
   other[100] ^= std::byte{1};
   CHECK_THAT(message_of(other), ContainsSubstring("do not have the hash of its header; it is damaged"));
