@@ -87,28 +87,47 @@ SHARED void note_pushed_if(mask wanted, const articulation *t, real pushed)
 SHARED mask is_pushed(const articulation *t) { return load_root(t, (uint)ROOT_LINEAR_FORCE).w != R(0.0); }
 
 /* --- from bodies to coordinates ------------------------------------------------------------------------------- */
+/* Bodies of links. */
+typedef struct {
+  read_links links;
+  read_bodies bodies;
+} linked_bodies;
+
 /* A body as its joint sees it. Of the ground, frame a stands where the table of articulations says. */
 typedef struct {
+  double_float3 position;
   quat orientation;
   spatial_motion velocity;
 } seen_body;
 
 SHARED seen_body ground(void)
 {
-  seen_body g = {make_quat(R(0.0), R(0.0), R(0.0), R(1.0)), no_motion()};
+  seen_body g = {{zero3(), zero3()}, make_quat(R(0.0), R(0.0), R(0.0), R(1.0)), no_motion()};
   return g;
 }
-SHARED seen_body load_seen_body(read_bodies bodies, uint_lanes body)
+SHARED seen_body load_seen_body(const linked_bodies *b, const articulation *t, shape_uint k)
 {
-  spatial_velocity m = load_velocity(bodies.velocity, body);
-  seen_body b = {quat_from(load_float4(bodies.orientation, body)), {m.angular, m.linear}};
-  return b;
+  uint_lanes body = body_of_link(b->links, t, k);
+  spatial_velocity m = load_velocity(b->bodies.velocity, body);
+  seen_body seen = {load_position(b->bodies.position, body),
+                    quat_from(load_float4(b->bodies.orientation, body)),
+                    {m.angular, m.linear}};
+  return seen;
 }
 SHARED seen_body choose_seen_body(mask m, seen_body a, seen_body b)
 {
-  seen_body s = {quat_from(choose4(m, quat_to_vec4(a.orientation), quat_to_vec4(b.orientation))),
+  seen_body s = {{choose3(m, a.position.high, b.position.high), choose3(m, a.position.low, b.position.low)},
+                 quat_from(choose4(m, quat_to_vec4(a.orientation), quat_to_vec4(b.orientation))),
                  choose_motion(m, a.velocity, b.velocity)};
   return s;
+}
+/* before: the body of link k - 1. */
+SHARED seen_body seen_parent(const linked_bodies *b, const articulation *t, tree_link l, uint k, seen_body before)
+{
+  mask follows = follows_at_once(l, k);
+  if (!any_of(!follows)) return before;
+  seen_body loaded = choose_seen_body(l.is_root, ground(), load_seen_body(b, t, l.parent));
+  return choose_seen_body(follows, before, loaded);
 }
 
 /* The two frames of a joint as the bodies have them, in axes of the world. offset: between the centres; of a held root,
@@ -118,15 +137,15 @@ typedef struct {
   vec3 offset, arm_a, arm_b;
 } seen_joint;
 
-SHARED seen_joint seen_joint_between(const articulation *t, tree_link l, seen_body parent, seen_body own, vec3 offset)
+SHARED seen_joint seen_joint_between(const link_constants *c, seen_body parent, seen_body own, vec3 offset)
 {
   seen_joint j;
-  j.a = quat_multiply(parent.orientation, quat_from(load_link(t, l.k, (uint)LINK_FRAME_A_ORIENTATION)));
-  quat b = quat_multiply(own.orientation, quat_from(load_link(t, l.k, (uint)LINK_FRAME_B_ORIENTATION)));
+  j.a = quat_multiply(parent.orientation, quat_from(c->orientation_a));
+  quat b = quat_multiply(own.orientation, quat_from(c->orientation_b));
   j.relative = quat_normalized(quat_multiply(conjugate(j.a), b));
   j.offset = offset;
-  j.arm_a = rotate(rotation_of(parent.orientation), xyz(load_link(t, l.k, (uint)LINK_FRAME_A)));
-  j.arm_b = rotate(rotation_of(own.orientation), xyz(load_link(t, l.k, (uint)LINK_FRAME_B)));
+  j.arm_a = rotate(rotation_of(parent.orientation), xyz(c->frame_a));
+  j.arm_b = rotate(rotation_of(own.orientation), xyz(c->frame_b));
   return j;
 }
 
@@ -150,24 +169,6 @@ SHARED vec3 velocity_of_joint(tree_link l, seen_joint j, spatial_motion parent, 
   return choose3(l.is_free, own.angular, v);
 }
 
-/* The bodies of the link and of its parent; of a root, twice its own. */
-typedef struct {
-  uint_lanes own, parent;
-} linked_bodies;
-
-SHARED linked_bodies bodies_of_link(read_links links, const articulation *t, tree_link l)
-{
-  uint_lanes own = body_of_link(links, t, l.k);
-  linked_bodies b = {own, choose(l.is_root, own, body_of_link(links, t, l.parent))};
-  return b;
-}
-
-SHARED vec3 offset_of_link(read_bodies bodies, const articulation *t, tree_link l, linked_bodies b)
-{
-  vec3 from_root = way_between(root_position(t), load_position(bodies.position, b.own));
-  return choose3(l.is_root, from_root, offset_between(bodies.position, b.parent, b.own));
-}
-
 /* The root stands where its body does, or where the ground holds it. */
 SHARED void read_root(read_links links, read_bodies bodies, const articulation *t)
 {
@@ -185,18 +186,30 @@ SHARED void read_root(read_links links, read_bodies bodies, const articulation *
   store_root(has_links(t), t, (uint)ROOT_LINEAR_FORCE, extend(zero3(), R(0.0)));
 }
 
+/* What the walk reads of a link. */
+typedef struct {
+  link_constants constants;
+  seen_body seen;
+} reading_link;
+
+SHARED void load_reading_link(const linked_bodies *b, const articulation *t, tree_link l, reading_link *r)
+{
+  r->constants = load_link_constants(t, l);
+  r->seen = load_seen_body(b, t, l.k);
+}
+
 /* The joint of a link as its bodies have it: position, and numbers of the velocity. */
 typedef struct {
   vec4 position;
   vec3 numbers;
 } read_joint;
 
-SHARED read_joint read_link(read_links links, read_bodies bodies, const articulation *t, tree_link l)
+SHARED read_joint read_link(const articulation *t, tree_link l, const reading_link *of, seen_body parent,
+                            double_float3 root)
 {
-  linked_bodies b = bodies_of_link(links, t, l);
-  seen_body own = load_seen_body(bodies, b.own),
-            parent = choose_seen_body(l.is_root, ground(), load_seen_body(bodies, b.parent));
-  seen_joint j = seen_joint_between(t, l, parent, own, offset_of_link(bodies, t, l, b));
+  seen_body own = of->seen;
+  vec3 offset = choose3(l.is_root, way_between(root, own.position), way_between(parent.position, own.position));
+  seen_joint j = seen_joint_between(&of->constants, parent, own, offset);
   read_joint r = {position_of_joint(l, j), velocity_of_joint(l, j, parent.velocity, own.velocity)};
   vec4 none = extend(zero3(), R(0.0));
   store_state(l.exists, t, l.k, (uint)STATE_JOINT_POSITION, r.position);
@@ -210,14 +223,18 @@ CALLED void read_articulation(read_links links, read_bodies bodies, const articu
 {
   articulation own = *tree;
   const articulation *t = &own;
+  linked_bodies b = {links, bodies};
   read_root(links, bodies, t);
+  double_float3 root = root_position(t);
   standing_link s = standing_ground();
+  seen_body before = ground();
+  BEGIN_WALK_WITH(&b, reading_link, load_reading_link, t, 0u);
   for (uint k = 0; k < t->most_links; ++k) {
-    tree_link l = tree_link_of(t, k);
-    link_constants constants = load_link_constants(t, l);
-    constants.inertia = implicit_inertia_of(&constants, h);
-    read_joint joint = read_link(links, bodies, t, l);
-    s = place_and_weigh_link(t, l, k, &constants, s, joint.position, joint.numbers);
+    WALK_WITH(&b, reading_link, load_reading_link, t, k, k + 1u);
+    now.constants.inertia = implicit_inertia_of(&now.constants, h);
+    read_joint joint = read_link(t, l, &now, seen_parent(&b, t, l, k, before), root);
+    before = now.seen;
+    s = place_and_weigh_link(t, l, k, &now.constants, s, joint.position, joint.numbers);
   }
 }
 
@@ -247,25 +264,44 @@ CALLED void write_velocities(read_links links, const articulation *tree, GLOBAL 
     write_velocities_from(links, t, first, solver_velocity);
 }
 
-/* What the step has moved the body by, from where it began. */
-SHARED void write_pose(read_links links, read_bodies bodies, const articulation *t, tree_link l,
-                       GLOBAL float4 *delta_pose, GLOBAL float4 *orientation)
+/* What writing the pose of a body reads. from: where and how it stood when the step began. */
+typedef struct {
+  uint_lanes body;
+  double_float3 from;
+  quat from_orientation, orientation;
+  vec3 offset;
+} posed_link;
+
+SHARED void load_posed_link(const linked_bodies *b, const articulation *t, tree_link l, posed_link *p)
 {
-  uint_lanes body = body_of_link(links, t, l.k);
-  vec3 moved = way_between(load_position(bodies.position, body), link_position(t, l.k));
-  quat q = quat_from(load_work(t, l.k, (uint)WORK_ORIENTATION)),
-       from = quat_from(load_float4(bodies.orientation, body));
-  vec3 turned_by = rotation_vector(quat_multiply(q, conjugate(from)));
-  store_float4_if(l.exists, delta_pose, body * 2u, extend(moved, R(0.0)));
-  store_float4_if(l.exists, delta_pose, body * 2u + 1u, extend(turned_by, R(0.0)));
-  store_float4_if(l.exists, orientation, body, quat_to_vec4(q));
+  p->body = body_of_link(b->links, t, l.k);
+  p->from = load_position(b->bodies.position, p->body);
+  p->from_orientation = quat_from(load_float4(b->bodies.orientation, p->body));
+  p->orientation = quat_from(load_work(t, l.k, (uint)WORK_ORIENTATION));
+  p->offset = xyz(load_work(t, l.k, (uint)WORK_OFFSET));
+}
+
+/* What the step has moved the body by, from where it began. */
+SHARED void write_pose(tree_link l, const posed_link *p, double_float3 root, GLOBAL float4 *delta_pose,
+                       GLOBAL float4 *orientation)
+{
+  vec3 moved = way_between(p->from, moved_position(root, p->offset));
+  vec3 turned_by = rotation_vector(quat_multiply(p->orientation, conjugate(p->from_orientation)));
+  store_float4_if(l.exists, delta_pose, p->body * 2u, extend(moved, R(0.0)));
+  store_float4_if(l.exists, delta_pose, p->body * 2u + 1u, extend(turned_by, R(0.0)));
+  store_float4_if(l.exists, orientation, p->body, quat_to_vec4(p->orientation));
 }
 CALLED void write_bodies(read_links links, read_bodies bodies, const articulation *tree, write_moved_bodies moved)
 {
   articulation own = *tree;
   const articulation *t = &own;
-  for (uint k = 0; k < t->most_links; ++k)
-    write_pose(links, bodies, t, tree_link_of(t, k), moved.delta, moved.orientation);
+  linked_bodies b = {links, bodies};
+  double_float3 root = root_position(t);
+  BEGIN_WALK_WITH(&b, posed_link, load_posed_link, t, 0u);
+  for (uint k = 0; k < t->most_links; ++k) {
+    WALK_WITH(&b, posed_link, load_posed_link, t, k, k + 1u);
+    write_pose(l, &now, root, moved.delta, moved.orientation);
+  }
   write_velocities(links, t, moved.velocity);
 }
 

@@ -133,16 +133,16 @@ CALLED mask sweep_rows_if(mask wanted, GLOBAL const Parameters *parameters, cons
   articulation own = *tree;
   const articulation *t = &own;
   mask pushed = wanted & !wanted;
-  spatial_motion before = no_motion();
+  link_before before = ground_before();
   BEGIN_WALK(swept_link, load_swept_link, t, 0u);
   for (uint k = 0; k < t->most_links; ++k) {
     WALK_TO(swept_link, load_swept_link, t, k, k + 1u);
     l.exists = l.exists & wanted;
     go_to_link_if(wanted, t, l, k);
-    arrive_at_link(t, l, k, before, &now.link);
+    arrive_at_link(t, l, k, &before, &now.link);
     pushed = pushed | solve_rows_at_link(parameters, t, l, &now, pass, which);
     store_visit(t, l, &now.link);
-    before = now.link.change.link;
+    before = link_before_of(&now.link);
   }
   end_sweep_if(wanted, t);
   return pushed;

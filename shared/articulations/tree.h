@@ -158,12 +158,27 @@ SHARED void store_symmetric6(mask wanted, const articulation *t, shape_uint k, s
   record now = ahead;                       \
   link_ahead = tree_link_of(t, beyond);     \
   load(t, link_ahead, &ahead)
+/* The same of a record that needs more than the tree. */
+#define BEGIN_WALK_WITH(more, record, load, t, first) \
+  tree_link link_ahead = tree_link_of(t, first);      \
+  record ahead;                                       \
+  load(more, t, link_ahead, &ahead)
+#define WALK_WITH(more, record, load, t, k, beyond) \
+  tree_link l = link_ahead;                         \
+  record now = ahead;                               \
+  link_ahead = tree_link_of(t, beyond);             \
+  load(more, t, link_ahead, &ahead)
 #else
 #define BEGIN_WALK(record, load, t, first) (void)0
 #define WALK_TO(record, load, t, k, beyond) \
   tree_link l = tree_link_of(t, k);         \
   record now;                               \
   load(t, l, &now)
+#define BEGIN_WALK_WITH(more, record, load, t, first) (void)0
+#define WALK_WITH(more, record, load, t, k, beyond) \
+  tree_link l = tree_link_of(t, k);                 \
+  record now;                                       \
+  load(more, t, l, &now)
 #endif
 
 SHARED mask follows_at_once(tree_link l, uint k) { return l.parent == (uint_lanes)(k - 1u); }

@@ -226,7 +226,8 @@ TEST_CASE("articulations: a sweep sees at each link and joint all that it has pu
       visited_link v;
       go_to_link_if(true, &tree.t, l, k);
       load_visited_link(&tree.t, l, &v);
-      arrive_at_link(&tree.t, l, k, k > 0 ? load_motion(&tree.t, k - 1, WORK_CHANGE) : no_motion(), &v);
+      const link_before before{k > 0 ? load_motion(&tree.t, k - 1, WORK_CHANGE) : no_motion()};
+      arrive_at_link(&tree.t, l, k, &before, &v);
       const double change = v.change.joint.x;
       const auto jacobian = dense.jacobian().middleRows<6>(6 * int(k));
       if (has_one_freedom(l)) {
