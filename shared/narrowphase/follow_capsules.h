@@ -12,19 +12,6 @@
 #include "shared/narrowphase/capsules.h"
 #include "shared/narrowphase/followed_pairs.h"
 
-/* The time free of touching by the chord along a normal that turns with the viewer, which is body a or b of the pair.
- * other_radius: of the sphere that the spin of the other one sweeps. */
-SHARED real free_beside_capsule(capsule_pair start, pair_motion moves, vec3 turning, vec3 turning_other,
-                                real other_radius, vec3 normal, real gap, advancement at, toi_input input)
-{
-  real acceleration = acceleration_beside(moves, subtract(start.b.pivot, start.a.pivot), input.horizon, turning,
-                                          turning_other, other_radius);
-  real span = span_of(at, gap, acceleration, input);
-  real gap_then =
-      gap_of_capsules_along(capsules_after(start, moves, at.time + span), rotate(turn_within(turning, span), normal));
-  return free_by_chord(gap, gap_then, span, acceleration, input);
-}
-
 /* The gap between two capsules and its normal, from a to b; of axes that meet there is none. */
 typedef struct {
   vec3 normal;
@@ -41,19 +28,46 @@ SHARED capsule_gap gap_between_capsules(capsule_pair pair)
   return g;
 }
 
+/* A pair at the start and at the end of its motion. Most pairs look at no other time, and turning a pair costs more than
+ * all else of a round. */
+typedef struct {
+  capsule_pair start, end;
+} followed_capsules;
+
+SHARED capsule_pair capsules_at(const followed_capsules *pair, pair_motion moves, real time, toi_input input)
+{
+  if (time <= R(0.0)) return pair->start;
+  if (time == input.horizon) return pair->end;
+  return capsules_after(pair->start, moves, time);
+}
+
+/* The time free of touching by the chord along a normal that turns with the viewer, which is body a or b of the pair.
+ * other_radius: of the sphere that the spin of the other one sweeps. */
+SHARED real free_beside_capsule(const followed_capsules *pair, pair_motion moves, vec3 turning, vec3 turning_other,
+                                real other_radius, capsule_gap now, advancement at, toi_input input)
+{
+  vec3 offset = subtract(pair->start.b.pivot, pair->start.a.pivot);
+  real acceleration = acceleration_beside(moves, offset, input.horizon, turning, turning_other, other_radius);
+  real gap = now.gap, span = span_of(at, gap, acceleration, input);
+  real gap_then = gap_of_capsules_along(capsules_at(pair, moves, at.time + span, input),
+                                        rotate(turn_within(turning, span), now.normal));
+  return free_by_chord(gap, gap_then, span, acceleration, input);
+}
+
 /* A pair that does not move far, and touches at the end of its motion, has met and keeps the contacts of the start
  * (encounter_of), as nearly all pairs that come to rest do. */
 SHARED advancement impact_of_capsules(mask reached, capsule_pair start, pair_motion moves, toi_input input)
 {
   vec3 turning_a = moves.a.angular, turning_b = moves.b.angular;
+  followed_capsules pair = {start, start};
   advancement at = start_advancement(reached);
-  at.hits =
-      reached && !input.far && gap_between_capsules(capsules_after(start, moves, input.horizon)).gap <= input.touching;
+  if (reached) pair.end = capsules_after(start, moves, input.horizon);
+  at.hits = reached && !input.far && gap_between_capsules(pair.end).gap <= input.touching;
   at.active = at.active && !at.hits;
   for (uint round = 0u; round < ADVANCEMENT_ROUNDS && at.active; ++round) {
-    capsule_gap now = gap_between_capsules(capsules_after(start, moves, at.time));
-    real by_a = free_beside_capsule(start, moves, turning_a, turning_b, moves.radius_b, now.normal, now.gap, at, input),
-         by_b = free_beside_capsule(start, moves, turning_b, turning_a, moves.radius_a, now.normal, now.gap, at, input);
+    capsule_gap now = gap_between_capsules(capsules_at(&pair, moves, at.time, input));
+    real by_a = free_beside_capsule(&pair, moves, turning_a, turning_b, moves.radius_b, now, at, input),
+         by_b = free_beside_capsule(&pair, moves, turning_b, turning_a, moves.radius_a, now, at, input);
     at = advanced(at, round, now.gap, closing_speed(moves, now.normal), maximum(by_a, by_b), input);
   }
   return at;
