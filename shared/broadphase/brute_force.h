@@ -16,8 +16,7 @@
 SHARED uint marks_of_overlaps(GLOBAL const float4 *bounds, box_bounds own, uint first, uint a)
 {
   uint bits = 0u;
-  for (uint b = first; b < a; ++b)
-    bits |= (overlaps_body_at_once(own, bounds, b) ? 1u : 0u) << (b - first);
+  for (uint b = first; b < a; ++b) bits |= (overlaps_body_at_once(own, bounds, b) ? 1u : 0u) << (b - first);
   return bits;
 }
 
@@ -25,7 +24,7 @@ SHARED int is_pair_by_brute_force(GLOBAL const Parameters *parameters, GLOBAL co
                                   GLOBAL const uint *body_filter, GLOBAL const float4 *bounds, box_bounds own, uint a,
                                   uint b)
 {
-  return bounds_overlap(own, load_bounds(bounds, b)) && pair_allowed(parameters, body_flags, body_filter, a, b);
+  return overlaps_rows(own, bounds, b) && pair_allowed(parameters, body_flags, body_filter, a, b);
 }
 
 SHARED void brute_force_count_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_flags,

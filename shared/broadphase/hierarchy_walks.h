@@ -29,8 +29,7 @@ SHARED uint link_of(const searched_tree *tree, uint slot, uint link) { return tr
 
 SHARED mask search_hits(const pair_search *search, const searched_tree *tree, uint slot)
 {
-  numbered_box n = load_numbered_box(tree->nodes, slot);
-  return n.lowest < tree->before && bounds_overlap(search->box, n.box);
+  return load_float4(tree->nodes, 2u * slot).w < tree->before && overlaps_rows(search->box, tree->nodes, slot);
 }
 
 /* Each traversal returns the slot of the next leaf that is hit, or INDEX_NONE after the last. next: the slot to

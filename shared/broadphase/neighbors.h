@@ -48,7 +48,7 @@ FORCE_INLINE mask may_meet(const pair_search *search, uint other)
 
 FORCE_INLINE mask meets(const pair_search *search, uint other)
 {
-  return bounds_overlap(search->box, load_bounds(search->bounds, other)) && may_meet(search, other);
+  return overlaps_rows(search->box, search->bounds, other) && may_meet(search, other);
 }
 
 /* --- where its finds go ------------------------------------------------------------------------------------ */

@@ -26,12 +26,22 @@ SHARED int bounds_overlap(box_bounds p, box_bounds q)
          p.lower.z <= q.upper.z && q.lower.z <= p.upper.z;
 }
 
-/* The same with the bounds of a body, without branches, for boxes that overlap about as often as not. */
-SHARED int overlaps_body_at_once(box_bounds p, GLOBAL const float4 *bounds, uint body)
+/* The same with the two rows of a box in memory; w of these counts for nothing. */
+SHARED int overlaps_rows(box_bounds p, GLOBAL const float4 *bounds, uint box)
 {
 #ifdef OVERLAPS_AT_ONCE
   floats_of_row lower = {p.lower.x, p.lower.y, p.lower.z, 0.0f}, upper = {p.upper.x, p.upper.y, p.upper.z, 0.0f};
-  return rows_overlap(lower, upper, bounds + 2u * body);
+  return rows_overlap(lower, upper, bounds + 2u * box);
+#else
+  return bounds_overlap(p, load_bounds(bounds, box));
+#endif
+}
+
+/* The same without branches, for boxes that overlap about as often as not. */
+SHARED int overlaps_body_at_once(box_bounds p, GLOBAL const float4 *bounds, uint body)
+{
+#ifdef OVERLAPS_AT_ONCE
+  return overlaps_rows(p, bounds, body);
 #else
   box_bounds q = load_bounds(bounds, body);
   return (p.lower.x <= q.upper.x) & (q.lower.x <= p.upper.x) & (p.lower.y <= q.upper.y) & (q.lower.y <= p.upper.y) &

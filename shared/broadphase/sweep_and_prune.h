@@ -86,7 +86,7 @@ FORCE_INLINE uint search_forward(const pair_search *search, GLOBAL const float4 
   if (i < large) return at;
   uint end = sweep_key(sweep_interval(search->box, grid, counts, 0u).end);
   for (uint k = i - large + 1u; k < small && sort_key[k] <= end; ++k) {
-    if (!bounds_overlap(search->box, load_bounds(sweep_bounds, k))) continue;
+    if (!overlaps_rows(search->box, sweep_bounds, k)) continue;
     uint other = sort_value[k];
     if (may_meet(search, other)) at = add_find(list, at, search->body, other);
   }

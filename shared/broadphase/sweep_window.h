@@ -80,7 +80,7 @@ SHARED void sweep_large(const window_sweep *sweep, uint share, uint i)
   uint large = sweep->counts[COUNT_LARGE], body = i < large ? i : sweep->sort_value[i - large];
   box_bounds own = load_bounds(sweep->bounds, body);
   for (uint b = share % SWEEP_SHARES; b < large && b < body; b += SWEEP_SHARES)
-    if (bounds_overlap(own, load_bounds(sweep->bounds, b))) found_pair(sweep, share, body, b);
+    if (overlaps_rows(own, sweep->bounds, b)) found_pair(sweep, share, body, b);
 }
 
 /* Tests a share of the window that starts at `start` against the body at `place`. */
