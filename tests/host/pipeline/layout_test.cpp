@@ -1,6 +1,7 @@
 /* Scratch buffers hold what every sort and scan of a step needs, whatever the capacities are. */
 #include "host/pipeline/layout.h"
 #include "host/pipeline/primitives.h"
+#include "shared/articulations/joint_types.h"
 #include "tests/catch.h"
 
 using namespace tandem;
@@ -32,4 +33,19 @@ TEST_CASE("the buffers of sorts hold the ends of boxes, pairs, candidates, and t
     CHECK(words_of(Buffer::scan_sums, sizes) >= scan_sum_words(histogram_words(keys)));
   }
   CHECK(words_of(Buffer::body_constraint, sizes) == 2 * size_t{sizes.pairs});
+}
+
+TEST_CASE("rows of contacts of trees have room for those of trees alone, and never for more than there are pairs")
+{
+  Sizes sizes = sizes_of(20000, 100000, 0);
+  sizes.features = FEATURE_ARTICULATIONS;
+  sizes.tree_freedoms = 27;
+  const auto rows = [&] { return bytes_of(Buffer::contact_row, sizes) / (2 * 4 * sizeof(float)); };
+  sizes.articulations = 1;
+  CHECK(rows() == 27 * TREE_COLORS);
+  sizes.articulations = 1000;
+  CHECK(rows() == size_t{27} * 1000 * TREE_COLORS);
+  sizes.articulations = 10000;
+  CHECK(rows() == size_t{27} * 100000);
+  CHECK(bytes_of(Buffer::contact_term, sizes) == size_t{9} * 4 * sizeof(float) * 100000);
 }
