@@ -185,24 +185,27 @@ uint64_t World::Implementation::hash_sleepers(uint64_t seed) const
 {
   if (sleepers.count() == 0) return seed;
   const bool several = (special.features & FEATURE_SEVERAL_POINTS) != 0;
-  std::vector<Sleepers::Part> parts, single;
-  size_t at = 0;
+  std::vector<Sleepers::Part> parts;
+  size_t at = 0, single = Sleepers::no_words, rows_of_points = Sleepers::no_words;
   for (const CarriedBuffer &rows : buffers.carried()) {
     const std::vector<bool> &touched = buffers.needs().touched;
     if (row_of(rows.now).capacity != Capacity::PAIRS || !touched[index_of(rows.now)]) continue;
     const bool filled = is_filled(touched, rows.now);
     const size_t words = words_of(rows.now);
-    if (rows.now == Buffer::cached_single_impulse) single = {{at, words}};
+    const Features feature = row_of(rows.now).feature & ~FEATURE_SEVERAL_POINTS;
+    const bool is_of_scene = feature == 0 || (feature & scene_features) != 0; /* others are there unspecialised */
+    if (filled && rows.now == Buffer::cached_single_impulse) single = at;
+    if (filled && rows.now == Buffer::cached_normal_impulse) rows_of_points = at;
     if (rows.now == Buffer::cached_normal_impulse && !filled) parts.push_back({Sleepers::no_words, words - 1});
     else if (rows.now == Buffer::cached_feature && !filled) parts.push_back({Sleepers::no_words, words});
-    else if (filled && !(several && rows.now == Buffer::cached_single_impulse)) parts.push_back({at, words});
+    else if (filled && is_of_scene && !(several && rows.now == Buffer::cached_single_impulse))
+      parts.push_back({at, words});
     if (filled) at += words;
   }
-  Sleepers whole = sleepers, beside = sleepers;
+  Sleepers whole = sleepers;
+  if (single != Sleepers::no_words && rows_of_points != Sleepers::no_words) whole.join_impulses(single, rows_of_points);
   whole.rearrange(parts);
-  beside.rearrange(several ? single : std::vector<Sleepers::Part>{});
-  seed = whole.hash(seed);
-  return beside.have_words() ? beside.hash(seed) : seed;
+  return whole.hash(seed);
 }
 
 /* What the host knows of motion, found anew: after a state has been put back. */

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <iterator>
 #include <utility>
 
@@ -86,13 +87,11 @@ void Sleepers::rearrange(const std::vector<Part> &parts)
     }
 }
 
-bool Sleepers::have_words() const
+void Sleepers::join_impulses(size_t single, size_t rows)
 {
-  return std::any_of(islands_.begin(), islands_.end(), [](const auto &island) {
-    return std::any_of(island.second.pairs.begin(), island.second.pairs.end(), [](const SleepingPair &pair) {
-      return std::any_of(pair.words.begin(), pair.words.end(), [](uint32_t word) { return word != 0; });
-    });
-  });
+  for (auto &[number, island] : islands_)
+    for (SleepingPair &pair : island.pairs)
+      if (std::bit_cast<float>(pair.words[single]) > 0) pair.words[rows] = pair.words[single];
 }
 
 uint64_t Sleepers::hash(uint64_t seed) const

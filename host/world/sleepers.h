@@ -47,8 +47,9 @@ public:
     size_t first; /* among the present words; no_words: zeros */
     size_t words;
   };
-  /* Whether some word of a pair is not 0. */
-  bool have_words() const;
+  /* Puts single impulses into the rows that pairs of several points have, as impulse_rows (carried.h) does. Each is the
+   * first of its words. */
+  void join_impulses(size_t single, size_t rows);
   /* Gives all pairs these parts, one after another, in place of their words. */
   void rearrange(const std::vector<Part> &parts);
   uint64_t hash(uint64_t seed) const; /* the seed if nobody sleeps */

@@ -113,6 +113,7 @@ SHARED void arrive_at_link(const articulation *t, tree_link l, uint k, const lin
   v->change = link_change(t, l, &v->joint, v->pending, v->parent);
 }
 
+/* Once a visit: the next push would need what this one has written. */
 SHARED void push_parent_on_way_if(mask wanted, const articulation *t, tree_link l, visited_link *v,
                                   spatial_force impulse)
 {
