@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-#include <tandem/bodies.h>
+#include <tandem/world.h>
 
 namespace tandem {
 

@@ -11,6 +11,7 @@
 #include <tandem/export.h>
 
 #include "host/runtime/memory.h"
+#include "shared/platform.h"
 
 namespace tandem {
 

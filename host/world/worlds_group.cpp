@@ -10,6 +10,7 @@
 #include "host/runtime/interface/floating_point.h"
 #include "host/scene/built.h"
 #include "host/scene/joint_buffers.h"
+#include "host/scene/joint_rows.h"
 
 namespace tandem {
 namespace {
