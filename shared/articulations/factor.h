@@ -68,15 +68,11 @@ typedef struct {
   real mass;
 } solid_link;
 
-SHARED solid_link load_solid_of(const articulation *t, tree_link l, quat orientation)
-{
-  solid_link s = {rotation_of(orientation), xyz(load_link(t, l.k, (uint)LINK_MOMENTS)),
-                  load_link(t, l.k, (uint)LINK_FRAME_B).w};
-  return s;
-}
 SHARED solid_link load_solid_link(const articulation *t, tree_link l)
 {
-  return load_solid_of(t, l, quat_from(load_work(t, l.k, (uint)WORK_ORIENTATION)));
+  solid_link s = {rotation_of(quat_from(load_work(t, l.k, (uint)WORK_ORIENTATION))),
+                  xyz(load_link(t, l.k, (uint)LINK_MOMENTS)), load_link(t, l.k, (uint)LINK_FRAME_B).w};
+  return s;
 }
 
 SHARED symmetric6 inertia_of_solid(solid_link solid)

@@ -54,17 +54,6 @@ CALLED void return_velocities_if(mask wanted, const articulation *tree)
 /* A walk over the links does all that needs no more than the parent, because it takes its time to come to a link rather
  * than to compute there. */
 
-/* What a round knows of a link. */
-typedef struct {
-  spatial_motion change, velocity;
-} round_link;
-
-SHARED round_link round_ground(void)
-{
-  round_link g = {no_motion(), no_motion()};
-  return g;
-}
-
 /* What the first walk reads of a link. */
 typedef struct {
   circling_record moves;
@@ -99,7 +88,7 @@ CALLED void begin_first_half(const articulation *tree, real h, vec3 frame, real 
   *energy = sum;
 }
 
-/* What a round reads of a link. */
+/* What a round reads of a link: a further one the velocity that its joint returns to, the last one the armature. */
 typedef struct {
   settling_joint joint;
   solid_link solid;
@@ -123,10 +112,10 @@ SHARED void load_last_round(const articulation *t, tree_link l, rounding_link *r
 }
 
 /* The velocity that the pushes lead to, of link k; numbers: of its joint. before: link k - 1. */
-SHARED round_link settle_and_move_link(const articulation *t, tree_link l, uint k, const settling_joint *of,
-                                       const round_link *before, vec3 *numbers)
+SHARED settled_link settle_and_move_link(const articulation *t, tree_link l, uint k, const settling_joint *of,
+                                         const settled_link *before, vec3 *numbers)
 {
-  round_link r = *before;
+  settled_link r = *before;
   settled_joint s = settle_joint(t, l, of, motion_of_parent(t, l, k, before->change, (uint)WORK_CHANGE));
   spatial_motion parent = motion_of_parent(t, l, k, before->velocity, (uint)WORK_VELOCITY);
   *numbers = s.numbers;
@@ -142,7 +131,7 @@ CALLED void begin_round(const articulation *tree, real h)
 {
   articulation own = *tree;
   const articulation *t = &own;
-  round_link r = round_ground();
+  settled_link r = resting_ground();
   circling_link c = circling_ground();
   BEGIN_WALK(rounding_link, load_further_round, t, 0u);
   for (uint k = 0; k < t->most_links; ++k) {
@@ -161,7 +150,7 @@ CALLED void end_first_half(const articulation *tree, vec3 frame, real *energy)
   articulation own = *tree;
   const articulation *t = &own;
   real sum = R(0.0);
-  round_link r = round_ground();
+  settled_link r = resting_ground();
   BEGIN_WALK(rounding_link, load_last_round, t, 0u);
   for (uint k = 0; k < t->most_links; ++k) {
     WALK_TO(rounding_link, load_last_round, t, k, k + 1u);
@@ -258,6 +247,7 @@ SHARED void move_root_by(const articulation *t, vec3 way)
 }
 
 /* --- the second half ------------------------------------------------------------------------------------------ */
+/* What its first walk reads of a link. */
 typedef struct {
   circling_record moves;
   single_factor single;

@@ -195,7 +195,7 @@ SHARED spatial_motion pending_change(const articulation *t, uint_lanes k)
 }
 
 /* --- all links ------------------------------------------------------------------------------------------------ */
-/* A link as a walk that settles its tree leaves it: what has been pending, and the numbers of its joint's velocity. */
+/* What settling a joint gives: the change of its link, and the numbers of its velocity. */
 typedef struct {
   spatial_motion change;
   vec3 numbers;
