@@ -257,7 +257,7 @@ private:
     {
       const Launch &launch = series_[backend_.chains_.at(chain).first].launch;
       const auto [first, last] = MiniclBackend::range_of(launch, counts_);
-      return {first, last, items_of_part(launch.kernel), backend_.has_lanes(launch.kernel)};
+      return {first, last, items_of_part(launch.kernel), !is_group(launch.kernel) && backend_.has_lanes(launch.kernel)};
     }
     void run(size_t number, uint32_t first, uint32_t last) override
     {
@@ -280,7 +280,7 @@ private:
     {
       const Kernel kernel = series_[launch].launch.kernel;
       void *const *const arguments = backend_.arguments_.data() + backend_.first_argument_[launch];
-      if (is_group(kernel)) backend_.scalar_.at(index_of(kernel))(arguments, first, last);
+      if (is_group(kernel)) backend_.groups_in_lanes(kernel)(arguments, first, last);
       else backend_.run_in_lanes(kernel, arguments, first, last);
     }
 
@@ -328,10 +328,17 @@ private:
                        [&](const Lanes &lanes) { return lanes.run.at(index_of(kernel)) != nullptr; });
   }
 
+  /* What a group works on need not be a multiple of the width, so no narrower one takes the rest. */
+  RunRange groups_in_lanes(Kernel kernel) const
+  {
+    const RunRange widest = lanes_.empty() ? nullptr : lanes_.front().run.at(index_of(kernel));
+    return widest ? widest : scalar_.at(index_of(kernel));
+  }
+
   void run_groups(Kernel kernel, void *const *arguments, uint32_t groups)
   {
-    const RunRange run = scalar_.at(index_of(kernel));
-    if (order_ != Order::forward) return run_permuted(run, arguments, 0, groups);
+    if (order_ != Order::forward) return run_permuted(scalar_.at(index_of(kernel)), arguments, 0, groups);
+    const RunRange run = groups_in_lanes(kernel);
     parallel(0, groups, 1, tbb::auto_partitioner{},
              [&](uint32_t first, uint32_t last) { run(arguments, first, last); });
   }

@@ -98,6 +98,16 @@ SHARED item_index operator+(item_index i, uint32_t offset) { return {i.first + o
 SHARED item_index operator+(uint32_t offset, item_index i) { return {i.first + offset}; }
 SHARED uint_lanes operator*(item_index i, uint32_t factor) { return uint_lanes(i) * uint_lanes(factor); }
 
+#define FOR_EACH_LISTED(k, n) for (uint k = 0; k < (uint)(n); k += TANDEM_LANES)
+/* Lanes past the end have the last item of all. */
+SHARED uint_lanes listed_item(const uint *list, uint n, uint k)
+{
+  uint_lanes i;
+  for (uint lane = 0; lane < (uint)width; ++lane) i.v[lane] = list[k + lane < n ? k + lane : n - 1];
+  return i;
+}
+SHARED mask is_listed(uint n, uint k) { return uint_lanes(item_index{k}) < uint_lanes(n); }
+
 /* A function with such a parameter is a template. */
 #define any_index auto
 

@@ -7,6 +7,8 @@
  *   item_index               the index of an item (lanes: the first of a run of items, so that memory is read in
  *                            order); the sum with a uint is an item_index, any other arithmetic makes a uint_lanes
  *   any_index                either of both, as a parameter: an item, or one that each lane chooses
+ *   FOR_EACH_LISTED(k, n)    in a group: the items of a list of n, k the first of those at a time
+ *   listed_item, is_listed   these items, and whether there are so many
  *   any_of(m)                some item of the group has it (uniform, so `if` may use it)
  *   load*, store*, *_if      memory by item index; _if writes only where the mask holds; listed: by an index from a
  *                            list, whose lanes are mostly neighbours in memory
@@ -48,6 +50,15 @@ typedef struct {
 #define choose(m, a, b) ((m) ? (a) : (b))
 
 SHARED int any_of(mask m) { return m; }
+
+#define FOR_EACH_LISTED(k, n) FOR_EACH_ITEM(k, n)
+SHARED uint_lanes listed_item(LOCAL const uint *list, uint n, uint k)
+{
+  (void)n;
+  return list[k];
+}
+SHARED mask is_listed(uint n, uint k) { return k < n; }
+
 SHARED real square_root(real x) { return SQUARE_ROOT(x); }
 /* Truncation toward zero; the caller keeps |x| below 2^31. */
 SHARED int truncate_to_int(real x) { return (int)x; }

@@ -15,6 +15,7 @@ namespace {
 #define EXECUTION_ITEM(name) nullptr
 #define EXECUTION_LANES(name) nullptr
 #define EXECUTION_GROUP(name) nullptr
+#define EXECUTION_LANES_GROUP(name) nullptr
 #define EXECUTION_HOST(name) make_##name()
 #define KERNEL(name, stage, execution, items, feature, arguments) EXECUTION_##execution(name),
 

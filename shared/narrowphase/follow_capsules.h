@@ -28,6 +28,18 @@ SHARED capsule_gap gap_between_capsules(capsule_pair pair)
   return g;
 }
 
+SHARED capsule choose_capsule(mask m, capsule a, capsule b)
+{
+  capsule c = {choose3(m, a.pivot, b.pivot), choose3(m, a.middle, b.middle), choose3(m, a.to_end, b.to_end),
+               choose(m, a.radius, b.radius)};
+  return c;
+}
+SHARED capsule_pair choose_capsules(mask m, capsule_pair a, capsule_pair b)
+{
+  capsule_pair pair = {choose_capsule(m, a.a, b.a), choose_capsule(m, a.b, b.b)};
+  return pair;
+}
+
 /* A pair at the start and at the end of its motion. Most pairs look at no other time, and turning a pair costs a CPU
  * more than all else of a round. A device waits for the few pairs that look at many others, so it turns all alike: with
  * these branches in its loop, an H200 took a tenth longer. */
@@ -35,13 +47,16 @@ typedef struct {
   capsule_pair start, end;
 } followed_capsules;
 
-SHARED capsule_pair capsules_at(const followed_capsules *pair, pair_motion moves, real time, toi_input input)
+/* wanted: pairs of others may be at any time. */
+SHARED capsule_pair capsules_at(mask wanted, const followed_capsules *pair, pair_motion moves, real time,
+                                toi_input input)
 {
-#ifndef READS_AHEAD
-  if (time <= R(0.0)) return pair->start;
-  if (time == input.horizon) return pair->end;
-#else
+#ifdef READS_AHEAD
+  (void)wanted;
   (void)input;
+#else
+  mask begins = time <= R(0.0);
+  if (!any_of(wanted & (!begins) & (time != input.horizon))) return choose_capsules(begins, pair->start, pair->end);
 #endif
   return capsules_after(pair->start, moves, time);
 }
@@ -54,7 +69,7 @@ SHARED real free_beside_capsule(const followed_capsules *pair, pair_motion moves
   vec3 offset = subtract(pair->start.b.pivot, pair->start.a.pivot);
   real acceleration = acceleration_beside(moves, offset, input.horizon, turning, turning_other, other_radius);
   real gap = now.gap, span = span_of(at, gap, acceleration, input);
-  real gap_then = gap_of_capsules_along(capsules_at(pair, moves, at.time + span, input),
+  real gap_then = gap_of_capsules_along(capsules_at(at.active, pair, moves, at.time + span, input),
                                         rotate(turn_within(turning, span), now.normal));
   return free_by_chord(gap, gap_then, span, acceleration, input);
 }
@@ -66,11 +81,12 @@ SHARED advancement impact_of_capsules(mask reached, capsule_pair start, pair_mot
   vec3 turning_a = moves.a.angular, turning_b = moves.b.angular;
   followed_capsules pair = {start, start};
   advancement at = start_advancement(reached);
-  if (reached) pair.end = capsules_after(start, moves, input.horizon);
-  at.hits = reached && !input.far && gap_between_capsules(pair.end).gap <= input.touching;
-  at.active = at.active && !at.hits;
-  for (uint round = 0u; round < ADVANCEMENT_ROUNDS && at.active; ++round) {
-    capsule_gap now = gap_between_capsules(capsules_at(&pair, moves, at.time, input));
+  if (any_of(reached)) pair.end = capsules_after(start, moves, input.horizon);
+  mask slow = reached & (!input.far);
+  if (any_of(slow)) at.hits = slow & (gap_between_capsules(pair.end).gap <= input.touching);
+  at.active = at.active & (!at.hits);
+  for (uint round = 0u; round < ADVANCEMENT_ROUNDS && any_of(at.active); ++round) {
+    capsule_gap now = gap_between_capsules(capsules_at(at.active, &pair, moves, at.time, input));
     real by_a = free_beside_capsule(&pair, moves, turning_a, turning_b, moves.radius_b, now, at, input),
          by_b = free_beside_capsule(&pair, moves, turning_b, turning_a, moves.radius_a, now, at, input);
     at = advanced(at, round, now.gap, closing_speed(moves, now.normal), maximum(by_a, by_b), input);
@@ -78,21 +94,24 @@ SHARED advancement impact_of_capsules(mask reached, capsule_pair start, pair_mot
   return at;
 }
 
-SHARED void follow_pair_of_capsules(read_listed_part_pairs pairs, GLOBAL const uint *flags, GLOBAL const float4 *shapes,
-                                    GLOBAL const float4 *poses, read_bodies bodies, GLOBAL const Parameters *parameters,
-                                    GLOBAL const uint *counts, write_manifolds manifolds, uint i)
+SHARED void follow_pair_of_capsules(mask wanted, read_listed_part_pairs pairs, GLOBAL const uint *flags,
+                                    GLOBAL const float4 *shapes, GLOBAL const float4 *poses, read_bodies bodies,
+                                    GLOBAL const Parameters *parameters, GLOBAL const uint *counts,
+                                    write_manifolds manifolds, uint_lanes i)
 {
   point_planes planes = planes_of(counts);
-  collider a = collider_of_pair(parameters, pairs.leaf, pairs.a[i], i, 0u),
-           b = collider_of_pair(parameters, pairs.leaf, pairs.b[i], i, 1u);
+  collider a = collider_of_pair(parameters, pairs.leaf, load_uint(pairs.a, i), i, 0u),
+           b = collider_of_pair(parameters, pairs.leaf, load_uint(pairs.b, i), i, 1u);
   moving_capsules p = load_moving_capsules(flags, shapes, poses, bodies, parameters, a, b);
   manifold m = load_manifold(planes, manifolds, i);
   speculation s = speculation_of_capsules(parameters, m, &p);
-  encounter met = encounter_of(parameters, s, impact_of_capsules(s.reached, p.pair, p.moves, p.input), p.input);
-  capsule_pair then = capsules_after(p.pair, p.moves, met.at_impact ? met.time : R(0.0));
-  if (met.at_impact) m = capsules_within_reach(parameters, then, p.aside, p.moves);
+  encounter met =
+      encounter_of(parameters, s, impact_of_capsules(wanted & s.reached, p.pair, p.moves, p.input), p.input);
+  capsule_pair then = capsules_after(p.pair, p.moves, choose(met.at_impact, met.time, (real)R(0.0)));
+  if (any_of(met.at_impact))
+    m = choose_manifold(met.at_impact, capsules_within_reach(parameters, then, p.aside, p.moves), m);
   m = as_seen_from_start(parameters, m, met, then.b.pivot, p.moves);
-  store_manifold_if(1, m, planes, manifolds, i);
+  store_manifold_if(wanted, m, planes, manifolds, i);
 }
 
 /* local_memory: the list of followed_pairs.h. */
@@ -103,9 +122,10 @@ SHARED void follow_capsules_of_kind(uint kind, read_listed_part_pairs pairs, GLO
 {
   gather_followed_pairs(pairs.of_kind, pairs.a, pairs.b, flags, parameters, counts, manifolds.count, kind, local_memory,
                         group);
-  FOR_EACH_ITEM(k, local_memory[0])
+  FOR_EACH_LISTED(k, local_memory[0])
   {
-    follow_pair_of_capsules(pairs, flags, shapes, poses, bodies, parameters, counts, manifolds, local_memory[1u + k]);
+    follow_pair_of_capsules(is_listed(local_memory[0], k), pairs, flags, shapes, poses, bodies, parameters, counts,
+                            manifolds, listed_item(local_memory + 1u, local_memory[0], k));
   }
 }
 

@@ -28,8 +28,8 @@ SHARED void gather_followed_pairs(GLOBAL const uint *of_kind, GLOBAL const uint 
   FOR_EACH_ITEM(only, 1u) list[only] = 0u;
   FOR_EACH_ITEM(k, count)
   {
-    const uint pair = pair_of_item(parameters, of_kind, first + k);
-    if (marks[pair] >= TO_FOLLOW && is_of_kind(parameters, flags, pair_a[pair], pair_b[pair], kind))
+    const uint pair = HAS_FEATURE(parameters, PAIR_KINDS) ? of_kind[first + k] : first + k;
+    if (marks[pair] >= TO_FOLLOW && any_of(is_of_kind(parameters, flags, pair_a[pair], pair_b[pair], kind)))
       list[1u + LOCAL_ADD(list, 1u)] = pair;
   }
 }

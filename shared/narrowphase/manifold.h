@@ -131,7 +131,7 @@ SHARED void store_manifold_if(mask mine, manifold m, point_planes planes, write_
 }
 
 /* The manifold that was stored. Points that are not kept hold zeros. */
-SHARED manifold load_manifold(point_planes planes, write_manifolds manifolds, item_index i)
+SHARED manifold load_manifold(point_planes planes, write_manifolds manifolds, any_index i)
 {
   vec4 normal = load_float4(manifolds.normal, i);
   uint_lanes count = load_uint(manifolds.count, i) & (TO_FOLLOW - 1u), feature = 0u;

@@ -109,7 +109,7 @@ struct Sources {
 bool defines_any(const std::string &text, const std::vector<embed::KernelRow> &rows)
 {
   return std::any_of(rows.begin(), rows.end(), [&](const embed::KernelRow &row) {
-    return text.find(" " + row.name + (row.execution == "GROUP" ? "_group(" : "_item(")) != std::string::npos;
+    return text.find(" " + row.name + (has_groups(row) ? "_group(" : "_item(")) != std::string::npos;
   });
 }
 

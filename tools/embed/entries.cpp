@@ -64,7 +64,7 @@ std::string entry_of(const KernelRow &row, const std::string &list)
     arguments.push_back(passed(argument, names_of(argument.parameters)));
   }
   parameters.push_back("RANGE");
-  const bool is_group = row.execution == "GROUP";
+  const bool is_group = has_groups(row);
   if (is_group) arguments.push_back("local_memory");
   arguments.push_back(is_group ? "GROUP_NUMBER" : "i");
 
@@ -78,7 +78,7 @@ std::string entry_of(const KernelRow &row, const std::string &list)
 
 std::string call_of(const KernelRow &row)
 {
-  const bool is_group = row.execution == "GROUP";
+  const bool is_group = has_groups(row);
   std::string text = row.name + (is_group ? "_group(" : "_item(");
   size_t number = 0;
   for (const FunctionArgument &argument : row.arguments) {

@@ -149,9 +149,10 @@ public:
     for (const Call &argument : calls_in(call.arguments[5]))
       if (argument.name == "LOCAL_MEMORY") row.local_words = argument.arguments.at(0);
       else row.arguments.push_back(argument_from(argument));
-    if ((row.execution == "GROUP") == row.local_words.empty())
-      throw std::runtime_error("kernel " + row.name +
-                               ": LOCAL_MEMORY belongs to each kernel of execution GROUP, and to no other");
+    if (has_groups(row) == row.local_words.empty())
+      throw std::runtime_error(
+          "kernel " + row.name +
+          ": LOCAL_MEMORY belongs to each kernel of execution GROUP or LANES_GROUP, and to no other");
     return row;
   }
 

@@ -26,9 +26,11 @@ struct FunctionArgument {
 struct KernelRow {
   std::string name, stage, execution, feature;
   std::vector<FunctionArgument> arguments;
-  std::string local_words; /* of a GROUP kernel: the size of its local memory */
+  std::string local_words; /* of a kernel of groups: the size of its local memory */
   int line;                /* of kernels.def, from 1 */
 };
+
+inline bool has_groups(const KernelRow &row) { return row.execution == "GROUP" || row.execution == "LANES_GROUP"; }
 
 /* The lists of a module. Its rows may also name the pipeline's buffers and groups (ROOT/shared). */
 struct Lists {

@@ -139,7 +139,7 @@ public:
       for (const Argument &argument : row_of(kernel).arguments) arguments.push_back(storage(argument.buffer, outputs));
       const auto [first, last] = range_of(kernel);
       const auto scalar = minicl::scalar_kernels.run[index_of(kernel)], found = table.run[index_of(kernel)],
-                 own = found || table.lanes > 1 ? found : scalar; /* which has what the backward one lacks */
+                 own = found ? found : scalar; /* which has what others lack */
       if (row_of(kernel).execution == Execution::group) {
         own(arguments.data(), 0, (last - first + TILE - 1) / TILE);
         continue;
