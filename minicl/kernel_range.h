@@ -56,6 +56,22 @@ template <auto function> static void run_items(void *const *arguments, uint32_t 
       std::make_index_sequence<count>{});
 }
 
+#ifdef TANDEM_LANES
+/* The same with any number of items. The code for runs that do not fill the lanes is the same but for memory: a
+ * second one of the solvers, of 50 kB, had to come to the caches for each colour. */
+template <auto function> static void run_padded_items(void *const *arguments, uint32_t first, uint32_t last)
+{
+  constexpr size_t count = Signature<decltype(function)>::count - 1;
+  with_arguments<function>(
+      arguments,
+      [&](auto... bound) {
+        for (uint32_t i = first; i < last; i += TANDEM_LANES)
+          function(bound..., item_index{i, std::min<uint32_t>(last - i, TANDEM_LANES)});
+      },
+      std::make_index_sequence<count>{});
+}
+#endif
+
 /* The last two parameters of a group function are its local memory and its index. */
 template <auto function> static void run_groups(void *const *arguments, uint32_t first, uint32_t last)
 {

@@ -1,8 +1,8 @@
 /* kernel_table.h - every kernel of a module as a plain function over a range of items.
  *
  * There is one table for each width: scalar (one item at a time; also compiled for AVX2), backward (the kernels marked
- * GROUP or LANES_GROUP, with their phases run in reverse), and 4, 8 and 16 lanes for kernels marked LANES or
- * LANES_GROUP.
+ * GROUP or LANES_GROUP, with their phases run in reverse), and 4, 8 and 16 lanes for kernels marked LANES, LANES_PADDED
+ * or LANES_GROUP.
  */
 #pragma once
 

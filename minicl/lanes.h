@@ -84,18 +84,21 @@ SHARED real choose(mask m, real a, real b) { return real(m.v ? a.v : b.v); }
 SHARED uint_lanes choose(mask m, uint_lanes a, uint_lanes b) { return uint_lanes(m.v ? a.v : b.v); }
 SHARED mask choose(mask m, mask a, mask b) { return {(m.v & a.v) | (~m.v & b.v)}; }
 
-/* The items first, first + 1, ...; memory indexed by it is consecutive. */
+/* The items first, first + 1, ...; memory indexed by it is consecutive. If there are fewer than lanes, the last one is
+ * that of all lanes beyond it, too. */
 struct item_index {
   uint32_t first;
+  uint32_t items = TANDEM_LANES;
+  bool fills_lanes() const { return __builtin_expect(items == TANDEM_LANES, 1); }
   operator uint_lanes() const
   {
     uint_lanes i;
-    for (int lane = 0; lane < width; ++lane) i.v[lane] = first + (uint32_t)lane;
+    for (uint32_t lane = 0; lane < TANDEM_LANES; ++lane) i.v[lane] = first + std::min(lane, items - 1);
     return i;
   }
 };
-SHARED item_index operator+(item_index i, uint32_t offset) { return {i.first + offset}; }
-SHARED item_index operator+(uint32_t offset, item_index i) { return {i.first + offset}; }
+SHARED item_index operator+(item_index i, uint32_t offset) { return {i.first + offset, i.items}; }
+SHARED item_index operator+(uint32_t offset, item_index i) { return i + offset; }
 SHARED uint_lanes operator*(item_index i, uint32_t factor) { return uint_lanes(i) * uint_lanes(factor); }
 
 #define FOR_EACH_LISTED(k, n) for (uint k = 0; k < (uint)(n); k += TANDEM_LANES)
@@ -121,6 +124,24 @@ SHARED uint_lanes to_uint(real x) { return uint_lanes((uint_vector) __builtin_co
 #include "minicl/lanes_x86.h"
 #else
 #include "minicl/lanes_portable.h"
+#endif
+
+#ifndef LOADS_FIRST_OF_RUN
+/* The first words of a run, of which the last one is in all lanes beyond it, too; and back. */
+SHARED uint_vector load_first(const void *from, uint32_t items)
+{
+  uint_vector run;
+  for (uint32_t lane = 0; lane < TANDEM_LANES; ++lane) {
+    uint word;
+    __builtin_memcpy(&word, (const char *)from + sizeof word * std::min(lane, items - 1), sizeof word);
+    run[lane] = word;
+  }
+  return run;
+}
+template <class Vector> SHARED void store_first(void *to, uint32_t items, Vector value)
+{
+  __builtin_memcpy(to, &value, sizeof(uint) * items);
+}
 #endif
 
 SHARED void store_real(memory_real *to, uint_lanes i, real value)
@@ -168,12 +189,14 @@ SHARED void atomic_clear_if(mask m, uint *to, uint_lanes at)
 
 SHARED real load_real(const memory_real *from, item_index i)
 {
+  if (!i.fills_lanes()) return real((float_vector)load_first(from + i.first, i.items));
   real r;
   __builtin_memcpy(&r.v, from + i.first, sizeof r.v);
   return r;
 }
 SHARED void store_real(memory_real *to, item_index i, real value)
 {
+  if (!i.fills_lanes()) return store_first(to + i.first, i.items, value.v);
   __builtin_memcpy(to + i.first, &value.v, sizeof value.v);
 }
 SHARED void store_listed_real_if(mask m, memory_real *to, uint_lanes i, real value)
@@ -185,12 +208,14 @@ SHARED void store_listed_real_if(mask m, memory_real *to, uint_lanes i, real val
 }
 SHARED uint_lanes load_uint(const uint *from, item_index i)
 {
+  if (!i.fills_lanes()) return uint_lanes((uint_vector)load_first(from + i.first, i.items));
   uint_lanes r;
   __builtin_memcpy(&r.v, from + i.first, sizeof r.v);
   return r;
 }
 SHARED void store_uint(uint *to, item_index i, uint_lanes value)
 {
+  if (!i.fills_lanes()) return store_first(to + i.first, i.items, value.v);
   __builtin_memcpy(to + i.first, &value.v, sizeof value.v);
 }
 SHARED void store_uint_if(mask m, uint *to, item_index i, uint_lanes value)
@@ -204,10 +229,6 @@ SHARED void store_listed_uint_if(mask m, uint *to, uint_lanes i, uint_lanes valu
   else store_uint_if(m, to, i, value);
 }
 
-/* A record is loaded or stored whole, 16 bytes a lane, and transposed in registers. */
-SHARED vec4 load_float4(const float4 *from, item_index i) { return transpose(load_in_order(from + i.first)); }
-SHARED void store_float4(float4 *to, item_index i, vec4 value) { store_in_order(to + i.first, transpose(value)); }
-
 struct lane_numbers {
   uint32_t of[width];
 };
@@ -217,6 +238,7 @@ SHARED lane_numbers numbers_of(uint_lanes i)
   __builtin_memcpy(n.of, &i.v, sizeof n.of);
   return n;
 }
+/* A record is loaded or stored whole, 16 bytes a lane, and transposed in registers. */
 SHARED vec4 load_float4(const float4 *from, uint_lanes i)
 {
   const lane_numbers at = numbers_of(i);
@@ -229,6 +251,20 @@ SHARED void store_float4(float4 *to, uint_lanes i, vec4 value)
   const lane_numbers at = numbers_of(i);
   float4 *lanes[width];
   for (int lane = 0; lane < width; ++lane) lanes[lane] = to + at.of[lane];
+  scatter_quarters(lanes, transpose(value));
+}
+SHARED vec4 load_float4(const float4 *from, item_index i)
+{
+  if (i.fills_lanes()) return transpose(load_in_order(from + i.first));
+  const float4 *lanes[width];
+  for (uint32_t lane = 0; lane < TANDEM_LANES; ++lane) lanes[lane] = from + i.first + std::min(lane, i.items - 1);
+  return transpose(gather_quarters(lanes));
+}
+SHARED void store_float4(float4 *to, item_index i, vec4 value)
+{
+  if (i.fills_lanes()) return store_in_order(to + i.first, transpose(value));
+  float4 *lanes[width];
+  for (uint32_t lane = 0; lane < TANDEM_LANES; ++lane) lanes[lane] = to + i.first + std::min(lane, i.items - 1);
   scatter_quarters(lanes, transpose(value));
 }
 /* Lanes that must not write store to a spare float4, because many lanes and threads share a body that cannot move. */

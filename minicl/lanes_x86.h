@@ -201,3 +201,36 @@ SHARED void store_in_order(float4 *to, quarters q)
   _mm_storeu_ps(&to[3].x, q.d);
 }
 #endif
+
+/* The first words of a run, as in lanes.h. A gather takes several times as long as these. */
+#if TANDEM_LANES > 4 && !defined(__SANITIZE_ADDRESS__)
+#define LOADS_FIRST_OF_RUN
+#endif
+#if defined(LOADS_FIRST_OF_RUN) && TANDEM_LANES == 16
+SHARED __m512i load_first(const void *from, uint32_t items)
+{
+  const __m512i lanes = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+  const __m512i run = _mm512_maskz_loadu_epi32((__mmask16)((1u << items) - 1), from);
+  return _mm512_maskz_permutexvar_epi32(0xffff,
+                                        _mm512_maskz_min_epu32(0xffff, lanes, _mm512_set1_epi32((int)items - 1)), run);
+}
+template <class Vector> SHARED void store_first(void *to, uint32_t items, Vector value)
+{
+  _mm512_mask_storeu_epi32(to, (__mmask16)((1u << items) - 1), (__m512i)value);
+}
+#elif defined(LOADS_FIRST_OF_RUN)
+SHARED __m256i first_of_run(uint32_t items)
+{
+  return _mm256_cmpgt_epi32(_mm256_set1_epi32((int)items), _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7));
+}
+SHARED __m256i load_first(const void *from, uint32_t items)
+{
+  const __m256i lanes = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7),
+                run = _mm256_maskload_epi32((const int *)from, first_of_run(items));
+  return _mm256_permutevar8x32_epi32(run, _mm256_min_epu32(lanes, _mm256_set1_epi32((int)items - 1)));
+}
+template <class Vector> SHARED void store_first(void *to, uint32_t items, Vector value)
+{
+  _mm256_maskstore_epi32((int *)to, first_of_run(items), (__m256i)value);
+}
+#endif

@@ -66,20 +66,29 @@ uint32_t ParallelRegion::parts_of(const LaunchesOfRegion::Range &range) const
   return static_cast<uint32_t>(std::min<uint64_t>((items + range.items_of_part - 1) / range.items_of_part, most));
 }
 
-/* Parts end at whole lanes, because what is left of them runs item by item. */
+/* Piece `number` of as many as the range has: whole lanes, where the items have any. */
+void ParallelRegion::run_piece(size_t launch, uint32_t number, uint32_t pieces)
+{
+  const LaunchesOfRegion::Range &range = phase_[launch].range;
+  const uint64_t items = range.last - range.first, whole = range.stays_on_thread ? widest_lanes_of_all : 1;
+  const auto end_of = [&](uint64_t ended) {
+    const uint64_t units = (items + whole - 1) / whole;
+    return static_cast<uint32_t>(std::min((units * ended + pieces - 1) / pieces * whole, items));
+  };
+  const uint32_t first = end_of(number), last = end_of(uint64_t{number} + 1);
+  if (first < last) launches_->run(launch, range.first + first, range.first + last);
+}
+
+/* A share is a piece from the front and one from the back: joints are sorted by type, and contacts of bodies further
+ * up come later, so items take longer towards an end. */
 void ParallelRegion::run_part(size_t launch, uint32_t part)
 {
-  Phase &phase = phase_[launch];
-  const uint64_t items = phase.range.last - phase.range.first;
-  const auto end_of = [&](uint64_t parts) {
-    const uint64_t end = items * parts / phase.parts;
-    return parts == phase.parts          ? items
-           : phase.range.stays_on_thread ? end / widest_lanes_of_all * widest_lanes_of_all
-                                         : end;
-  };
-  const uint32_t first = phase.range.first + static_cast<uint32_t>(end_of(part)),
-                 last = phase.range.first + static_cast<uint32_t>(end_of(part + uint64_t{1}));
-  if (first < last) launches_->run(launch, first, last);
+  const Phase &phase = phase_[launch];
+  if (!phase.range.stays_on_thread) run_piece(launch, part, phase.parts);
+  else {
+    run_piece(launch, part, 2 * phase.parts);
+    run_piece(launch, 2 * phase.parts - 1 - part, 2 * phase.parts);
+  }
   if (ends_phase(phase, part)) open_after(launch);
 }
 

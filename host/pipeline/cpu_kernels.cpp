@@ -14,6 +14,7 @@ namespace {
 
 #define EXECUTION_ITEM(name) nullptr
 #define EXECUTION_LANES(name) nullptr
+#define EXECUTION_LANES_PADDED(name) nullptr
 #define EXECUTION_GROUP(name) nullptr
 #define EXECUTION_LANES_GROUP(name) nullptr
 #define EXECUTION_HOST(name) make_##name()

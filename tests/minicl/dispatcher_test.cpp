@@ -6,6 +6,8 @@
 #include <thread>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include <tandem/world.h>
 
 #include "host/catalog/catalog.h"
@@ -13,6 +15,7 @@
 #include "host/runtime/make_backend.h"
 #include "minicl/dispatcher.h"
 #include "tests/catch.h"
+#include "tests/parity/parity.h"
 
 using namespace tandem;
 
@@ -118,6 +121,17 @@ TEST_CASE("worlds that step in two threads at the same time have the bits that e
   two.join();
   CHECK(hash == hash_after(alone, 6));
   CHECK(other_hash == hash_after(other_alone, 6));
+}
+
+/* Contacts of one colour, as many as there are boxes, and joints: what does not fill the lanes is padded. */
+TEST_CASE("colours of any size have the same bits in lanes", "[sanitizer]")
+{
+  const std::vector<std::string> backends = {"serial", "tbb:threads=1,lanes=4", "tbb:threads=1,lanes=8",
+                                             "tbb:threads=1,lanes=16"};
+  for (const uint32_t boxes : {1u, 2u, 3u, 4u, 5u, 7u, 8u, 9u, 13u, 15u, 16u, 17u, 31u, 33u})
+    parity::require_parity(fmt::format("box-grid:nx={},ny=1,nz=1", boxes), backends, 4);
+  for (const uint32_t people : {1u, 2u, 3u})
+    parity::require_parity(fmt::format("ragdolls:n={},height=0.1", people), backends, 4);
 }
 
 /* The value that a debugger's condition reads: while a launch of one world is inspected, another world steps in another

@@ -91,7 +91,44 @@ uint64_t in_order(size_t launches, uint64_t seed)
   return chain.result();
 }
 
+/* One launch whose items stay on their threads, each taking longer than the one before; by share, in the order run. */
+class Rising : public LaunchesOfRegion {
+public:
+  explicit Rising(uint32_t items) : items_(items) {}
+  size_t count() const override { return 1; }
+  Range range_of(size_t) const override { return {0, items_, 1, true}; }
+  void run(size_t, uint32_t first, uint32_t last) override { pieces.emplace_back(first, last); }
+
+  std::vector<std::pair<uint32_t, uint32_t>> pieces;
+
+private:
+  uint32_t items_;
+};
+
 } // namespace
+
+TEST_CASE("a parallel region gives each thread whole lanes, and as much of what takes long as the others")
+{
+  constexpr uint32_t threads = 4, lanes = 16, items = 160 * lanes + 5;
+  ParallelRegion region(threads, 1);
+  Rising rising(items);
+  region.begin(rising, threads);
+  region.take_part(0); /* alone, so the shares come one after another */
+  REQUIRE(region.has_ended());
+  REQUIRE(rising.pieces.size() == 2 * threads);
+  std::vector<double> work(threads, 0.0);
+  uint32_t covered = 0;
+  for (size_t k = 0; k < rising.pieces.size(); ++k) {
+    const auto [first, last] = rising.pieces[k];
+    CHECK(first % lanes == 0);
+    CHECK((last % lanes == 0 || last == items));
+    covered += last - first;
+    work[k / 2] += 0.5 * (last - first) * (first + last);
+  }
+  CHECK(covered == items);
+  const double mean = std::accumulate(work.begin(), work.end(), 0.0) / threads;
+  for (const double share : work) CHECK(share == Approx(mean).epsilon(0.05));
+}
 
 TEST_CASE("a parallel region runs a series as one thread would, whoever comes")
 {

@@ -44,7 +44,7 @@ constexpr size_t buffer_count = 0
     ;
 #undef BUFFER
 
-enum class Execution : uint8_t { item, lanes, group, host };
+enum class Execution : uint8_t { item, lanes, lanes_padded, group, host };
 enum class Access : uint8_t { in, out, inout };
 enum class Stage : uint8_t {
 #define STAGE(name) name,
