@@ -41,7 +41,8 @@ static inline void with_arguments(void *const *arguments, Body body, std::index_
 }
 
 /* The last parameter of an item function is the index of the item. */
-template <auto function> static void run_items(void *const *arguments, uint32_t first, uint32_t last)
+template <auto function>
+static __attribute__((noinline)) void run_items(void *const *arguments, uint32_t first, uint32_t last)
 {
   constexpr size_t count = Signature<decltype(function)>::count - 1;
   with_arguments<function>(
@@ -57,9 +58,8 @@ template <auto function> static void run_items(void *const *arguments, uint32_t 
 }
 
 #ifdef TANDEM_LANES
-/* The same with any number of items. The code for runs that do not fill the lanes is the same but for memory: a
- * second one of the solvers, of 50 kB, had to come to the caches for each colour. */
-template <auto function> static void run_padded_items(void *const *arguments, uint32_t first, uint32_t last)
+template <auto function>
+static __attribute__((noinline)) void run_any_items(void *const *arguments, uint32_t first, uint32_t last)
 {
   constexpr size_t count = Signature<decltype(function)>::count - 1;
   with_arguments<function>(
@@ -69,6 +69,17 @@ template <auto function> static void run_padded_items(void *const *arguments, ui
           function(bound..., item_index{i, std::min<uint32_t>(last - i, TANDEM_LANES)});
       },
       std::make_index_sequence<count>{});
+}
+
+/* The same with any number of items. To ask at each load whether items fill the lanes costs a twentieth, so whole
+ * instructions have code of their own. A few of them do not: the 50 kB of a solver would have to come to the caches for
+ * each, and for what is left again. */
+template <auto function> static void run_padded_items(void *const *arguments, uint32_t first, uint32_t last)
+{
+  constexpr uint32_t few = 8 * TANDEM_LANES;
+  const uint32_t left = last - first < few ? first : last - (last - first) % TANDEM_LANES;
+  if (first < left) run_items<function>(arguments, first, left);
+  if (left < last) run_any_items<function>(arguments, left, last);
 }
 #endif
 
