@@ -49,7 +49,7 @@ SHARED manifold with_middle_of_box(manifold m, box_pair then, pair_motion moves)
   if (magnitude(dot3(face.u, from_wall)) >= face.extent_u || magnitude(dot3(face.v, from_wall)) >= face.extent_v)
     return m;
   if (side * dot3(face.axis, outward) < WITH_FACE) return m;
-  return with_middle_ball(m, middle, outward, height, CORE_SHARE * least_of(box.extent));
+  return with_middle_ball_if(1, m, middle, outward, height, CORE_SHARE * least_of(box.extent));
 }
 
 /* Boxes without a contact at the start are followed only because they may meet from beside. */

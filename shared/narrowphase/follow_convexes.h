@@ -48,7 +48,7 @@ SHARED manifold with_middle_of_convex(manifold m, const convex_query *query, vec
   support_face face = support_face_of(wall, outward);
   if (!(radius > R(0.0)) || !is_before_face(wall, &face, middle) || dot3(face.normal, outward) < WITH_FACE) return m;
   real height = dot3(face.normal, subtract(middle, face_corner(wall, &face, 0u)));
-  return with_middle_ball(m, middle, outward, height, radius);
+  return with_middle_ball_if(1, m, middle, outward, height, radius);
 }
 
 /* The manifold for the whole step. */

@@ -30,44 +30,56 @@ typedef struct {
 SHARED ball_owner owner_of_ball(pair_motion moves)
 {
   mask pushed_a = moves.a.inverse_mass > R(0.0), pushed_b = moves.b.inverse_mass > R(0.0);
-  ball_owner owner = {pushed_a && !pushed_b, pushed_b && !pushed_a};
+  ball_owner owner = {pushed_a & (!pushed_b), pushed_b & (!pushed_a)};
   return owner;
 }
 
-/* The slot of the point with the largest separation; a free slot comes first. */
-SHARED uint farthest_place(manifold m)
+/* The point with the largest separation; a free slot comes first. */
+typedef struct {
+  uint_lanes slot;
+  real separation;
+  mask is_free;
+} farthest_point;
+
+SHARED farthest_point farthest_of(manifold m)
 {
-  uint last = 0u;
-  for (uint slot = 0u; slot < 4u; ++slot) {
-    if (!m.kept[slot]) return slot;
-    if (m.point[slot].w > m.point[last].w) last = slot;
+  farthest_point far = {0u, m.point[0].w, !m.kept[0]};
+  for (uint slot = 1u; slot < 4u; ++slot) {
+    mask farther = m.point[slot].w > far.separation, takes = (!far.is_free) & ((!m.kept[slot]) | farther);
+    far.slot = choose(takes, (uint_lanes)slot, far.slot);
+    far.separation = choose(takes, m.point[slot].w, far.separation);
+    far.is_free = far.is_free | (takes & (!m.kept[slot]));
   }
-  return last;
+  return far;
 }
 
 SHARED mask has_point_below(manifold m, vec3 foot, real radius)
 {
+  mask any = m.kept[0] & (!m.kept[0]);
   for (uint slot = 0u; slot < 4u; ++slot) {
     vec3 beside = cross3(m.normal, subtract(xyz(m.point[slot]), foot));
-    if (m.kept[slot] && length_squared(beside) < radius * radius) return 1;
+    any = any | (m.kept[slot] & (length_squared(beside) < radius * radius));
   }
-  return 0;
+  return any;
 }
 
 /* middle: from the centre of a. outward: unit, from the face. height: of the middle above the face. The ball's point
  * takes the last slot, so that a pass over the points solves it last. The code changes with it, because impulses of
- * these points are no guess for those of the next step. */
-SHARED manifold with_middle_ball(manifold m, vec3 middle, vec3 outward, real height, real radius)
+ * these points are no guess for those of the next step. wanted: other manifolds stay as they are. */
+SHARED manifold with_middle_ball_if(mask wanted, manifold m, vec3 middle, vec3 outward, real height, real radius)
 {
   vec3 foot = add_scaled(middle, outward, -height);
-  uint place = farthest_place(m);
-  if (!(height > R(0.0)) || !has_points(m) || has_point_below(m, foot, radius)) return m;
-  if (m.kept[place] && !(m.point[place].w - least_separation(m) > radius)) return m;
-  m.point[place] = m.point[3];
-  m.kept[place] = m.kept[3];
-  m.point[3] = extend(foot, height - radius);
-  m.kept[3] = 1;
-  m.code = m.code ^ 0x800000u;
+  farthest_point far = farthest_of(m);
+  wanted = wanted & (height > R(0.0)) & has_points(m) & (!has_point_below(m, foot, radius)) &
+           (far.is_free | (far.separation - least_separation(m) > radius));
+  for (uint slot = 0u; slot < 3u; ++slot) {
+    mask here = wanted & (far.slot == (uint_lanes)slot);
+    m.point[slot] = choose4(here, m.point[3], m.point[slot]);
+    m.kept[slot] = choose(here, m.kept[3], m.kept[slot]);
+  }
+  m.point[3] = choose4(wanted, extend(foot, height - radius), m.point[3]);
+  m.kept[3] = m.kept[3] | wanted;
+  m.code = choose(wanted, m.code ^ 0x800000u, m.code);
   return m;
 }
 
