@@ -4,9 +4,9 @@
 #                     [LINK target])
 #
 # NAME is a word of C, no stage of the pipeline, and the stage of every row in KERNELS. HEADERS hold the functions of
-# ITEM and GROUP kernels, LANES_HEADERS those of LANES kernels, which are compiled in every width. Whoever links the
-# library NAME includes "NAME.h": NAME::module(), NAME::kernel::ROW() and NAME::buffer::ROW(). LINK is
-# Tandem::tandem_shared where the shared form is wanted.
+# ITEM and GROUP kernels, LANES_HEADERS those of LANES, LANES_PADDED and LANES_GROUP kernels, which are compiled in
+# every width. Whoever links the library NAME includes "NAME.h": NAME::module(), NAME::kernel::ROW() and
+# NAME::buffer::ROW(). LINK is Tandem::tandem_shared where the shared form is wanted.
 #
 # TANDEM_MODULE_ROOT (shared/, minicl/ and host/runtime/interface/ lie there) and TANDEM_MODULE_TEMPLATES are set by who
 # includes this file: the tree itself, or the installed package.

@@ -65,8 +65,8 @@ static __attribute__((noinline)) void run_any_items(void *const *arguments, uint
   with_arguments<function>(
       arguments,
       [&](auto... bound) {
-        for (uint32_t i = first; i < last; i += TANDEM_LANES)
-          function(bound..., item_index{i, std::min<uint32_t>(last - i, TANDEM_LANES)});
+        for (; last - first > TANDEM_LANES; first += TANDEM_LANES) function(bound..., item_index{first, TANDEM_LANES});
+        function(bound..., item_index{first, last - first});
       },
       std::make_index_sequence<count>{});
 }

@@ -1,4 +1,4 @@
-/* lanes16.cpp - the LANES kernels with 16 items an instruction: AVX-512. */
+/* lanes16.cpp - the kernels that have lanes, with 16 items an instruction: AVX-512. */
 #define WIDTH lanes16
 #define TANDEM_LANES 16
 #if defined(__AVX512F__)

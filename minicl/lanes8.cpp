@@ -1,4 +1,4 @@
-/* lanes8.cpp - the LANES kernels with 8 items an instruction: AVX2. */
+/* lanes8.cpp - the kernels that have lanes, with 8 items an instruction: AVX2. */
 #define WIDTH lanes8
 #define TANDEM_LANES 8
 #if defined(__AVX2__)

@@ -13,6 +13,8 @@ constexpr uint32_t looks_until_help = 256, looks_until_yield = 2048;
 constexpr uint32_t parts_of_thread = 8; /* where items differ, so that threads end together */
 constexpr uint32_t widest_lanes_of_all = 16;
 
+uint32_t items_of_unit(const LaunchesOfRegion::Range &range) { return range.stays_on_thread ? widest_lanes_of_all : 1; }
+
 } // namespace
 
 ParallelRegion::ParallelRegion(uint32_t most_threads, size_t usual_launches) : shares_(most_threads)
@@ -66,28 +68,37 @@ uint32_t ParallelRegion::parts_of(const LaunchesOfRegion::Range &range) const
   return static_cast<uint32_t>(std::min<uint64_t>((items + range.items_of_part - 1) / range.items_of_part, most));
 }
 
-/* Piece `number` of as many as the range has: whole lanes, where the items have any. */
-void ParallelRegion::run_piece(size_t launch, uint32_t number, uint32_t pieces)
+void ParallelRegion::run_units(size_t launch, uint64_t first, uint64_t last)
 {
   const LaunchesOfRegion::Range &range = phase_[launch].range;
-  const uint64_t items = range.last - range.first, whole = range.stays_on_thread ? widest_lanes_of_all : 1;
-  const auto end_of = [&](uint64_t ended) {
-    const uint64_t units = (items + whole - 1) / whole;
-    return static_cast<uint32_t>(std::min((units * ended + pieces - 1) / pieces * whole, items));
+  const uint64_t items = range.last - range.first, unit = items_of_unit(range);
+  const auto item_at = [&](uint64_t units) {
+    return range.first + static_cast<uint32_t>(std::min(units * unit, items));
   };
-  const uint32_t first = end_of(number), last = end_of(uint64_t{number} + 1);
-  if (first < last) launches_->run(launch, range.first + first, range.first + last);
+  if (first < last) launches_->run(launch, item_at(first), item_at(last));
 }
 
-/* A share is a piece from the front and one from the back: joints are sorted by type, and contacts of bodies further
- * up come later, so items take longer towards an end. */
+/* Units are whole lanes, where the items have any. Shares are equal or differ by one unit. That of a thread with a
+ * share of its own is a piece from the front and one from the back: joints are sorted by type, and contacts of bodies
+ * further up come later, so items take longer towards an end. */
 void ParallelRegion::run_part(size_t launch, uint32_t part)
 {
   const Phase &phase = phase_[launch];
-  if (!phase.range.stays_on_thread) run_piece(launch, part, phase.parts);
-  else {
-    run_piece(launch, part, 2 * phase.parts);
-    run_piece(launch, 2 * phase.parts - 1 - part, 2 * phase.parts);
+  const uint64_t unit = items_of_unit(phase.range), items = phase.range.last - phase.range.first,
+                 units = (items + unit - 1) / unit, least = units / phase.parts, larger = units % phase.parts;
+  const auto of_parts = [&](uint64_t parts, uint64_t of_larger, uint64_t of_least) {
+    return std::min(parts, larger) * of_larger + (parts - std::min(parts, larger)) * of_least;
+  };
+  const uint64_t after = uint64_t{part} + 1;
+  if (!phase.range.stays_on_thread) {
+    run_units(launch, of_parts(part, least + 1, least), of_parts(after, least + 1, least));
+  } else {
+    const uint64_t larger_front = (least + 2) / 2, least_front = (least + 1) / 2;
+    const auto back = [&](uint64_t parts) {
+      return units - of_parts(parts, least + 1 - larger_front, least - least_front);
+    };
+    run_units(launch, of_parts(part, larger_front, least_front), of_parts(after, larger_front, least_front));
+    run_units(launch, back(after), back(part));
   }
   if (ends_phase(phase, part)) open_after(launch);
 }

@@ -68,7 +68,7 @@ private:
   void make_room(size_t launches);
   void open_after(size_t launch);
   uint32_t parts_of(const LaunchesOfRegion::Range &range) const;
-  void run_piece(size_t launch, uint32_t number, uint32_t pieces);
+  void run_units(size_t launch, uint64_t first, uint64_t last);
   void run_part(size_t launch, uint32_t part);
   void expect_parts_of(Phase &phase);
   bool ends_phase(const Phase &phase, uint32_t part);

@@ -3,7 +3,7 @@
  *
  *   pairs | . . x . . . . x . . . . . . . x | . . .      x: marked TO_FOLLOW
  *             |         |               |
- *            [0]       [1]             [2]               the items of a group take them one after another
+ *            [0]       [1]             [2]               the items of a group, or lanes, take them
  *
  * Few pairs are marked, so a group first gathers the marked ones of FOLLOW_PAIRS pairs. If each item looked at a pair
  * of its own instead, a device would run the long loops of following with most items of each warp idle.

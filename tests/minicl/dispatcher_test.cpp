@@ -123,13 +123,19 @@ TEST_CASE("worlds that step in two threads at the same time have the bits that e
   CHECK(other_hash == hash_after(other_alone, 6));
 }
 
-/* Contacts of one colour, as many as there are boxes, and joints: what does not fill the lanes is padded. */
+/* Contacts of one colour, as many as there are boxes, and joints: what does not fill the lanes is padded. With auto and
+ * restitution, so that contacts are weighed and bounce, too. */
 TEST_CASE("colours of any size have the same bits in lanes", "[sanitizer]")
 {
-  const std::vector<std::string> backends = {"serial", "tbb:threads=1,lanes=4", "tbb:threads=1,lanes=8",
-                                             "tbb:threads=1,lanes=16"};
-  for (const uint32_t boxes : {1u, 2u, 3u, 4u, 5u, 7u, 8u, 9u, 13u, 15u, 16u, 17u, 31u, 33u})
+  std::vector<std::string> backends = {"serial"};
+  for (const uint32_t lanes : {4u, 8u, 16u})
+    if (minicl::lanes_table(lanes)) backends.push_back(fmt::format("tbb:threads=1,lanes={}", lanes));
+  Settings weighed;
+  weighed.substeps = automatic_substeps;
+  for (const uint32_t boxes : {1u, 2u, 3u, 4u, 5u, 7u, 8u, 9u, 13u, 15u, 16u, 17u, 31u, 33u, 139u}) {
     parity::require_parity(fmt::format("box-grid:nx={},ny=1,nz=1", boxes), backends, 4);
+    parity::require_parity(fmt::format("spheres:n={},height=0,restitution=0.5", boxes), backends, 20, weighed);
+  }
   for (const uint32_t people : {1u, 2u, 3u})
     parity::require_parity(fmt::format("ragdolls:n={},height=0.1", people), backends, 4);
 }

@@ -1,4 +1,5 @@
 /* A region runs every item of a series once, launch after launch, whoever comes, late or not at all. */
+#include <algorithm>
 #include <chrono>
 #include <numeric>
 #include <thread>
@@ -99,6 +100,27 @@ public:
   Range range_of(size_t) const override { return {0, items_, 1, true}; }
   void run(size_t, uint32_t first, uint32_t last) override { pieces.emplace_back(first, last); }
 
+  /* Shares begin where the front pieces of those before have ended; there are so many that have any items. */
+  std::vector<uint32_t> items_of_shares(size_t shares) const
+  {
+    std::vector<uint32_t> items;
+    uint32_t front = 0;
+    for (const auto &[first, last] : pieces) {
+      const bool begins = first == front && items.size() < shares;
+      if (begins) items.push_back(0);
+      if (begins) front = last;
+      items.back() += last - first;
+    }
+    return items;
+  }
+  bool covers_once() const
+  {
+    std::vector<uint32_t> times(items_, 0);
+    for (const auto &[first, last] : pieces)
+      for (uint32_t item = first; item < last; ++item) ++times.at(item);
+    return std::all_of(times.begin(), times.end(), [](uint32_t n) { return n == 1; });
+  }
+
   std::vector<std::pair<uint32_t, uint32_t>> pieces;
 
 private:
@@ -117,17 +139,33 @@ TEST_CASE("a parallel region gives each thread whole lanes, and as much of what 
   REQUIRE(region.has_ended());
   REQUIRE(rising.pieces.size() == 2 * threads);
   std::vector<double> work(threads, 0.0);
-  uint32_t covered = 0;
   for (size_t k = 0; k < rising.pieces.size(); ++k) {
     const auto [first, last] = rising.pieces[k];
     CHECK(first % lanes == 0);
     CHECK((last % lanes == 0 || last == items));
-    covered += last - first;
     work[k / 2] += 0.5 * (last - first) * (first + last);
   }
-  CHECK(covered == items);
   const double mean = std::accumulate(work.begin(), work.end(), 0.0) / threads;
   for (const double share : work) CHECK(share == Approx(mean).epsilon(0.05));
+}
+
+TEST_CASE("a parallel region parts any number of items into shares that differ by one instruction of lanes")
+{
+  constexpr uint32_t lanes = 16;
+  for (const uint32_t threads : {2u, 3u, 4u, 7u, 16u}) {
+    ParallelRegion region(threads, 1);
+    for (uint32_t items = threads; items < 40 * lanes; items += 5) {
+      CAPTURE(threads, items);
+      Rising rising(items);
+      region.begin(rising, threads);
+      region.take_part(0);
+      const uint32_t units = (items + lanes - 1) / lanes, most = (units + threads - 1) / threads * lanes;
+      const std::vector<uint32_t> shares = rising.items_of_shares(std::min(threads, units));
+      CHECK(*std::max_element(shares.begin(), shares.end()) <= most);
+      CHECK(*std::min_element(shares.begin(), shares.end()) + 2 * lanes > most);
+      CHECK(rising.covers_once());
+    }
+  }
 }
 
 TEST_CASE("a parallel region runs a series as one thread would, whoever comes")
