@@ -11,6 +11,7 @@
 #include "shared/narrowphase/capsules.h"
 #include "shared/narrowphase/far_pairs.h"
 #include "shared/narrowphase/follow_box_capsules.h"
+#include "shared/narrowphase/follow_boxes.h"
 #include "shared/narrowphase/follow_capsules.h"
 #include "shared/narrowphase/sphere_box.h"
 #include "shared/narrowphase/sphere_half_space.h"
@@ -19,7 +20,6 @@
 #ifndef TANDEM_LANES /* ITEM and GROUP kernels take one item at a time */
 #include "shared/narrowphase/clamp_to_time_of_impact.h"
 #include "shared/narrowphase/collide_convex.h"
-#include "shared/narrowphase/follow_boxes.h"
 #include "shared/narrowphase/follow_convexes.h"
 #include "shared/narrowphase/list_pairs.h"
 #include "shared/narrowphase/sat_split.h"

@@ -5,9 +5,10 @@
 TEST_CASE("the tables of lanes have the kernels of groups that take lists in lanes")
 {
   using tandem::Kernel;
-  for (const Kernel kernel : {Kernel::follow_capsules, Kernel::follow_sphere_capsules, Kernel::follow_box_capsules})
+  for (const Kernel kernel :
+       {Kernel::follow_boxes, Kernel::follow_capsules, Kernel::follow_sphere_capsules, Kernel::follow_box_capsules})
     CHECK(tandem::minicl::lanes4_kernels.run[tandem::index_of(kernel)] != nullptr);
-  CHECK(tandem::minicl::lanes4_kernels.run[tandem::index_of(Kernel::follow_boxes)] == nullptr);
+  CHECK(tandem::minicl::lanes4_kernels.run[tandem::index_of(Kernel::follow_convexes)] == nullptr);
 }
 
 TEST_CASE("the scalar table has every kernel but the stages of the host")
