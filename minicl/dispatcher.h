@@ -15,8 +15,7 @@ namespace tandem::minicl {
 
 struct Options {
   uint32_t threads = 0; /* 0: all of the machine; 1: no TBB */
-  uint32_t lanes =
-      0; /* 0: the widest this processor runs; 1, 4, 8, 16; narrower ones take what is left of LANES kernels */
+  uint32_t lanes = 0;   /* 0: the widest this processor runs; 1, 4, 8, 16; narrower ones help with what is left */
   Backend::Order order = Backend::Order::forward;
   bool reference = false; /* in double, one item at a time */
 };
