@@ -183,8 +183,8 @@ SHARED void atomic_add_if(mask m, uint *to, uint_lanes at, uint value)
 }
 SHARED void atomic_clear_if(mask m, uint *to, uint_lanes at)
 {
-  for (int lane = 0; lane < width; ++lane)
-    if (m.v[lane]) atomic_min_uint(to + at.v[lane], 0u);
+  for (uint32_t left = lane_bits(m); left != 0; left &= left - 1)
+    atomic_min_uint(to + at.v[__builtin_ctz(left)], 0u);
 }
 
 SHARED real load_real(const memory_real *from, item_index i)

@@ -16,6 +16,7 @@
 #include "shared/broadphase/fat_aabbs.h"
 #include "shared/broadphase/hierarchy_walks.h"
 #include "shared/broadphase/pair_keys.h"
+#include "shared/broadphase/search_slots.h"
 #include "shared/parallel/length.h"
 
 SHARED uint candidate_capacity(GLOBAL const uint *counts) { return counts[CAPACITY_CANDIDATES]; }
@@ -63,23 +64,32 @@ FORCE_INLINE uint search_near(const pair_search *search, GLOBAL const uint *body
 SHARED void candidate_count_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_flags,
                                  GLOBAL const uint *body_filter, GLOBAL const float4 *fat_bounds,
                                  GLOBAL const uint *body_left, read_hierarchy_nodes hierarchy_nodes,
-                                 GLOBAL const uint *counts, GLOBAL uint *key_start, uint i)
+                                 GLOBAL const uint *counts, GLOBAL uint *key_start, GLOBAL ulong *candidate_key_other,
+                                 uint i)
 {
   pair_search search = search_of_body(parameters, body_flags, body_filter, fat_bounds, i);
-  find_list list = no_neighbors();
+  search_slot slot = slot_of_search(body_left, counts, candidate_capacity(counts), i);
+  find_list list = finds_as_keys(candidate_key_other + slot.first, slot.size);
   key_start[i] = search_near(&search, body_left, hierarchy_nodes, counts, &list, 0u);
 }
 
 SHARED void candidate_write_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_flags,
                                  GLOBAL const uint *body_filter, GLOBAL const float4 *fat_bounds,
                                  GLOBAL const uint *body_left, read_hierarchy_nodes hierarchy_nodes,
-                                 GLOBAL const uint *counts, GLOBAL const uint *key_start, GLOBAL ulong *candidate_key,
-                                 uint i)
+                                 GLOBAL const uint *counts, GLOBAL const uint *key_start,
+                                 GLOBAL const ulong *candidate_key_other, GLOBAL ulong *candidate_key, uint i)
 {
-  if (key_start[i] == key_start[i + 1u]) return; /* most bodies find nothing and need not search again */
+  uint first = key_start[i], finds = key_start[i + 1u] - first, capacity = candidate_capacity(counts);
+  if (finds == 0u) return;
+  search_slot slot = slot_of_search(body_left, counts, capacity, i);
+  if (finds <= slot.size) {
+    for (uint k = 0u; k < finds && first + k < capacity; ++k)
+      candidate_key[first + k] = candidate_key_other[slot.first + k];
+    return;
+  }
   pair_search search = search_of_body(parameters, body_flags, body_filter, fat_bounds, i);
-  find_list list = finds_as_keys(candidate_key, candidate_capacity(counts));
-  search_near(&search, body_left, hierarchy_nodes, counts, &list, key_start[i]);
+  find_list list = finds_as_keys(candidate_key, capacity);
+  search_near(&search, body_left, hierarchy_nodes, counts, &list, first);
 }
 
 /* The number of keys to sort is limited by their capacity. */
@@ -109,14 +119,24 @@ SHARED candidate_list candidate_list_of(GLOBAL const uint *candidate_start, GLOB
   return list;
 }
 
-/* The partners of body `a`, ascending: those kept, if neither of the two left, and those newly found. */
-FORCE_INLINE uint merge_near(GLOBAL const uint *body_left, GLOBAL const ulong *candidate_key, candidate_list kept,
-                             GLOBAL const uint *counts, uint a, const find_list *list, uint at)
+/* The partners of body `a` that did not leave. Each is reported, and stays if it is counted, because a processor cannot
+ * foresee which of them left. */
+FORCE_INLINE uint keep_near(GLOBAL const uint *body_left, candidate_list kept, uint first, uint end, uint a,
+                            const find_list *list, uint at)
 {
-  uint keys = counts[COUNT_CANDIDATE_KEYS], key = first_key_of(candidate_key, keys, a);
-  mask keeps = counts[COUNT_KEPT] != 0u && body_left[a] == 0u;
-  uint end = keeps ? kept.start[a + 1u] : 0u;
-  for (uint k = keeps ? kept.start[a] : 0u; k < end; ++k) {
+  for (uint k = first; k < end; ++k) {
+    uint stays = kept.b[k];
+    add_find(list, at, a, stays);
+    at += body_left[stays] == 0u ? 1u : 0u;
+  }
+  return at;
+}
+
+/* The same with new keys of the body, the first of which is `key`. */
+FORCE_INLINE uint merge_keys(GLOBAL const uint *body_left, GLOBAL const ulong *candidate_key, uint key, uint keys,
+                             candidate_list kept, uint first, uint end, uint a, const find_list *list, uint at)
+{
+  for (uint k = first; k < end; ++k) {
     uint stays = kept.b[k];
     if (body_left[stays] != 0u) continue;
     for (; key < keys && candidate_key[key] < key_of_pair(a, stays); ++key)
@@ -126,6 +146,17 @@ FORCE_INLINE uint merge_near(GLOBAL const uint *body_left, GLOBAL const ulong *c
   for (; key < keys && (uint)(candidate_key[key] >> 32) == a; ++key)
     at = add_find(list, at, a, (uint)candidate_key[key]);
   return at;
+}
+
+/* The partners of body `a`, ascending: those kept, if neither of the two left, and those newly found. */
+FORCE_INLINE uint merge_near(GLOBAL const uint *body_left, GLOBAL const ulong *candidate_key, candidate_list kept,
+                             GLOBAL const uint *counts, uint a, const find_list *list, uint at)
+{
+  uint keys = counts[COUNT_CANDIDATE_KEYS], key = first_key_of(candidate_key, keys, a);
+  mask keeps = counts[COUNT_KEPT] != 0u && body_left[a] == 0u;
+  uint first = keeps ? kept.start[a] : 0u, end = keeps ? kept.start[a + 1u] : 0u;
+  if (key == keys || (uint)(candidate_key[key] >> 32) != a) return keep_near(body_left, kept, first, end, a, list, at);
+  return merge_keys(body_left, candidate_key, key, keys, kept, first, end, a, list, at);
 }
 
 SHARED void merge_candidate_count_item(GLOBAL const uint *body_left, GLOBAL const ulong *candidate_key,
@@ -145,7 +176,7 @@ SHARED void merge_candidate_write_item(GLOBAL const uint *body_left, GLOBAL cons
   GLOBAL uint *start = candidate_start + (1u - side) * (counts[COUNT_BODIES] + 1u);
   start[a] = to < capacity ? to : capacity;
   if (a + 1u == counts[COUNT_BODIES]) start[a + 1u] = end < capacity ? end : capacity;
-  find_list list = finds_as_bodies(candidate_b + (1u - side) * capacity, capacity);
+  find_list list = finds_as_bodies(candidate_b + (1u - side) * capacity, end < capacity ? end : capacity);
   merge_near(body_left, candidate_key, candidate_list_of(candidate_start, candidate_b, counts, side), counts, a, &list,
              to);
 }
