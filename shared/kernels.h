@@ -1,5 +1,5 @@
 /* kernels.h - the kernels of every stage, or those of one part of minicl/width.inc. A width of several lanes has the
- * LANES kernels alone. */
+ * LANES, LANES_PADDED and LANES_GROUP kernels alone. */
 #ifndef TANDEM_SHARED_KERNELS_H
 #define TANDEM_SHARED_KERNELS_H
 

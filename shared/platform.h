@@ -17,8 +17,9 @@
  *   mask      the result of a comparison    int 0/1, or all-ones/zero a lane
  *   float4    four floats in memory, 16-byte aligned; never a lane type
  *
- * Kernels marked LANES in kernels.def use only these types, choose() for choices that depend on data, load and store
- * functions for memory, and uniform loop counts.
+ * Kernels marked LANES or LANES_PADDED in kernels.def, and those marked LANES_GROUP where they take what they have
+ * listed, use only these types, choose() for choices that depend on data, load and store functions for memory, and
+ * uniform loop counts.
  */
 #ifndef TANDEM_SHARED_PLATFORM_H
 #define TANDEM_SHARED_PLATFORM_H
@@ -173,7 +174,7 @@ static inline uint local_add_uint(uint *pointer, uint value)
 #define TILE 1024u
 #define LOCAL_WORDS 8192
 
-/* These macros are for GROUP kernels:
+/* These macros are for kernels of groups:
  *   CHUNKS(many)  the number of chunks of consecutive items in a phase, one item a chunk. A work-group needs many.
  *                 One thread runs everything, so a single chunk saves it the joining. It may be used only where the
  *                 result does not depend on the cut: sums of whole numbers and ranks, never sums of reals.

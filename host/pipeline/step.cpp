@@ -19,6 +19,7 @@
 #include "host/pipeline/solvers/solvers.h"
 #include "host/pipeline/step_launches.h"
 #include "host/runtime/interface/pair_tests.h"
+#include "shared/batching/limits.h"
 #include "shared/body_codes.h"
 #include "shared/midphase/pair_groups.h"
 #include "shared/setup/order_codes.h"
@@ -293,6 +294,8 @@ private:
     if (plan().islands_apart) run_range(Kernel::fill, COUNT_ZERO, COUNT_COMMIT_BODIES, {0}, {Buffer::body_wish});
     run(Kernel::cache_starts);
     run(Kernel::cache_pairs);
+    if (row_of(settings().batching).keeps_colors)
+      run_range(Kernel::release_colors, COLOR_START + KEPT_COLORS, COUNT_COMMIT_CONSTRAINTS);
     run(Kernel::cache_impulses);
     if (has(FEATURE_TREES)) run(Kernel::cache_normals);
     if (has(FEATURE_EVENTS))

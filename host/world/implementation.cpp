@@ -402,11 +402,13 @@ void World::Implementation::guess_counts() noexcept
   known[COUNT_COMMIT_BODIES] = special.awake;
   known[COUNT_COMMIT_BODIES_PLUS_ONE] = special.awake + 1;
   known[COUNT_CELLS_PLUS_ONE] = plan.capacity_cells + 1;
-  const auto sixteenths = [&](uint32_t n) { return static_cast<uint32_t>(uint64_t{plan.capacity_pairs} * n / 16); };
-  for (uint32_t kind = 0; kind <= PAIR_KIND_NONE; ++kind) known[KIND_START + kind] = sixteenths(2 * kind);
-  for (uint32_t color = 0; color <= COLOR_LIMIT; ++color) known[COLOR_START + color] = sixteenths(2 * color);
+  const auto halves_of = [&](uint32_t parts, uint32_t n) {
+    return static_cast<uint32_t>(uint64_t{plan.capacity_pairs} * n / (2 * parts));
+  };
+  for (uint32_t kind = 0; kind <= PAIR_KIND_NONE; ++kind) known[KIND_START + kind] = halves_of(8, 2 * kind);
+  for (uint32_t color = 0; color <= COLOR_LIMIT; ++color) known[COLOR_START + color] = halves_of(16, 2 * color);
   for (uint32_t color = 0; color < COLOR_LIMIT; ++color)
-    known[LINK_COLOR_START + color] = known[WORLD_COLOR_START + color] = sixteenths(2 * color + 1);
+    known[LINK_COLOR_START + color] = known[WORLD_COLOR_START + color] = halves_of(16, 2 * color + 1);
   for (uint32_t color = 0; color <= COLOR_LIMIT; ++color) /* of bodies, which as many colours hold as avbd launches */
     known[BODY_COLOR_START + color] =
         static_cast<uint32_t>(uint64_t{special.awake} * std::min(color, first_body_colors - 1) / 8);

@@ -117,6 +117,20 @@ SHARED void color_assign_item(GLOBAL const Parameters *parameters, read_world_pa
                node_of(parameters, nodes.link, pairs.b[i]), bid_in_world(parameters, pairs, i), round, i);
 }
 
+/* Colours are kept from step to step, and contacts that go leave gaps among them. A contact of one of the last colours
+ * that found a lower one free at both bodies is coloured anew in the next step, because each colour takes a launch in
+ * every pass, however few contacts it has. */
+SHARED void release_colors_item(GLOBAL const Parameters *parameters, GLOBAL const uint *constraint_pair,
+                                GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, read_nodes nodes,
+                                GLOBAL const uint *pair_color, GLOBAL const uint *body_colors,
+                                GLOBAL uint *cached_color, uint i)
+{
+  uint pair = constraint_pair[i], color = pair_color[pair];
+  uint a = node_of(parameters, nodes.link, pair_a[pair]), b = node_of(parameters, nodes.link, pair_b[pair]);
+  uint free = free_color(body_colors, a, is_moving(nodes.flags, a), b, is_moving(nodes.flags, b));
+  if (free < color) cached_color[pair] = COLOR_NONE;
+}
+
 /* The oracle: one item colours all contacts greedily in pair order. The sequential batching of the talks (GS-4150 slide
  * 42) fills batch after batch and takes each contact whose bodies are free; a contact comes into batch k if earlier
  * ones bar it from the batches before k, so "the lowest free colour, in order" gives the same batches in one pass. */

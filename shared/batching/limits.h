@@ -4,6 +4,9 @@
 
 #include "shared/platform.h"
 
+/* The first colours, of which contacts keep theirs whatever else is free. */
+#define KEPT_COLORS 8u
+
 /* Iterative batching: the rounds that fill one batch. */
 #define BATCH_ROUNDS 4u
 

@@ -83,6 +83,20 @@ TEST_CASE("module: a kernel between steps changes what the next step starts from
   }
 }
 
+TEST_CASE("module: a kernel of groups takes what it lists once each, also in lanes that the list does not fill")
+{
+  Scene scene = balls(3000);
+  for (uint32_t i = 0; i < 3000; ++i) scene.bodies[i].linear_velocity = {0, i % 7 == 0 ? 6.0f : 0.5f, 0};
+  for (const std::string &backend : all_backends()) {
+    CAPTURE(backend);
+    World world(scene, with(pushing(0)), {backend, {}});
+    world.step();
+    world.run(probe::kernel::probe_calm());
+    const std::vector<BodyState> bodies = world.bodies();
+    for (uint32_t i = 0; i < 3000; ++i) REQUIRE(bodies[i].linear_velocity[1] == (i % 7 == 0 ? 3.0f : 0.5f));
+  }
+}
+
 TEST_CASE("module: contacts that a kernel drops hold nothing")
 {
   Scene scene = balls(4);

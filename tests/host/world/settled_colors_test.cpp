@@ -2,6 +2,7 @@
  * spare, and what hits such a pile moves it as it would have moved any. */
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "host/pipeline/step.h"
 #include "host/runtime/launcher.h"
 #include "host/runtime/memory.h"
+#include "shared/batching/limits.h"
 #include "tests/catch.h"
 
 namespace tandem {
@@ -186,6 +188,45 @@ TEST_CASE("limits of a step that took colours for granted count what is needed, 
   world.step(limits);
   CHECK(world.statistics().pairs == 1);
   CHECK(world.statistics().contacts == 0);
+}
+
+/* A plate on the ground, which moves, and balls that lie on it apart from each other; the plate comes first. */
+Scene balls_on_plate()
+{
+  Scene scene;
+  scene.shapes = {box_shape(4, 0.2f, 4), sphere_shape(0.3f), half_space_shape()};
+  Body ground;
+  ground.type = BodyType::fixed;
+  ground.shape = 2;
+  scene.bodies.push_back(ground);
+  Body plate;
+  plate.position = {0, 0.2, 0};
+  plate.mass = 1000;
+  scene.bodies.push_back(plate);
+  for (int k = 0; k < 25; ++k) {
+    Body ball;
+    ball.shape = 1;
+    ball.position = {1.4 * (k % 5 - 2), 0.7, 1.4 * (k / 5 - 2)};
+    scene.bodies.push_back(ball);
+  }
+  return scene;
+}
+
+TEST_CASE("contacts take the lower colours that others have left", "[sanitizer]")
+{
+  for (const char *backend : {"serial", "tbb:threads=2"}) {
+    Settings settings;
+    settings.check = true;
+    World world(balls_on_plate(), settings, {backend, {}});
+    const std::vector<BodyId> ids = world.body_ids();
+    step_world(world, 10);
+    REQUIRE(world.statistics().colors == 26);
+    world.destroy_bodies(std::span(ids).subspan(2, 21));
+    step_world(world, 2);
+    CHECK(world.statistics().contacts == 4 + 4);
+    CHECK(world.statistics().colors <= KEPT_COLORS);
+    CHECK(!world.batch_fault());
+  }
 }
 
 TEST_CASE("a scene that was wrongly taken for settled waits twice as long before it is again")

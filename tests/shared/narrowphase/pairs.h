@@ -33,6 +33,7 @@ struct TestBody {
   Eigen::Vector3f linear{0, 0, 0}, angular{0, 0, 0};
   Eigen::Vector3f shape_position{0, 0, 0}; /* of a capsule in its body */
   Eigen::Quaternionf shape_orientation{1, 0, 0, 0};
+  float inverse_mass = 1; /* 0: nothing that it touches moves it */
 
   Vector center() const { return position.cast<double>(); }
   Vector extent() const { return size.cast<double>(); }
@@ -138,8 +139,8 @@ public:
       std::vector<void *> arguments;
       for (const Argument &argument : row_of(kernel).arguments) arguments.push_back(storage(argument.buffer, outputs));
       const auto [first, last] = range_of(kernel);
-      const auto scalar = minicl::scalar_kernels.run[index_of(kernel)], found = table.run[index_of(kernel)],
-                 own = found ? found : scalar; /* which has what others lack */
+      const auto scalar = minicl::scalar_kernels.run[index_of(kernel)];
+      const auto own = table.lanes == 1 && !table.run[index_of(kernel)] ? scalar : table.run[index_of(kernel)];
       if (row_of(kernel).execution == Execution::group) {
         own(arguments.data(), 0, (last - first + TILE - 1) / TILE);
         continue;
@@ -217,7 +218,7 @@ private:
                       body.shape_orientation.w()});
     poses_.insert(poses_.end(), 2, {0, 0, 0, 0}); /* a box around the shape, for other stages */
     orientations_.push_back({body.orientation.x(), body.orientation.y(), body.orientation.z(), body.orientation.w()});
-    velocities_.push_back(to_row(body.linear, 1));
+    velocities_.push_back(to_row(body.linear, body.inverse_mass));
     velocities_.push_back(to_row(body.angular, 0));
     return static_cast<uint32_t>(bodies_.size() - 1);
   }

@@ -7,6 +7,8 @@ using namespace tandem::narrowphase_tests;
 
 namespace {
 
+constexpr uint32_t code_of_middle_ball = 0x800000u << 8; /* shared/narrowphase/middle_ball.h */
+
 const std::vector<Kernel> lane_kernels = {
     Kernel::collide_sphere_sphere,     Kernel::collide_sphere_box,      Kernel::collide_box_box,
     Kernel::collide_sphere_half_space, Kernel::collide_box_half_space,  Kernel::collide_sphere_capsule,
@@ -36,7 +38,17 @@ TestBody random_body_of_any_shape(Random &random, bool may_be_half_space)
   const double speed = random.logarithmic(0.5, 300); /* so that some pairs meet or miss within the step, some rest */
   body.linear = random.in_cube(speed).cast<float>();
   body.angular = random.in_cube(std::min(speed, 100.0)).cast<float>();
+  if (random.below(3) == 0) body.inverse_mass = 0;
   return body;
+}
+
+/* Body b from afar, so that the pair hits or misses within the step. */
+void throw_at(Random &random, const TestBody &a, TestBody &b)
+{
+  const Vector way = random.direction();
+  const double distance = random.uniform(1, 5), speed = random.uniform(100, 600);
+  b.position = (a.center() + distance * way + random.in_cube(0.2)).cast<float>();
+  b.linear = a.linear - (speed * way).cast<float>();
 }
 
 PairScene mixed_pairs()
@@ -49,6 +61,7 @@ PairScene mixed_pairs()
     if (pair_kind(a.shape, b.shape) == PAIR_KIND_CONVEX_CONVEX) continue;
     if (random.below(16) == 0) b.position = a.position;
     if (random.below(16) == 0) b.orientation = a.orientation;
+    if (random.below(2)) throw_at(random, a, b);
     scene.add(a, b);
   }
   return scene;
@@ -60,9 +73,13 @@ TEST_CASE("narrowphase: every width and direction gives the same bits")
 {
   PairScene scene = mixed_pairs();
   const Outputs expected = scene.run(narrowphase_kernels);
-  size_t at_impact = 0;
-  for (size_t pair = 0; pair < scene.size(); ++pair) at_impact += expected.normals[pair].w > 0;
+  size_t at_impact = 0, with_ball = 0;
+  for (size_t pair = 0; pair < scene.size(); ++pair) {
+    at_impact += expected.normals[pair].w > 0;
+    with_ball += (expected.features[pair] & code_of_middle_ball) != 0;
+  }
   CHECK(at_impact > 500);
+  CHECK(with_ball > 60);
   CHECK(scene.run(narrowphase_kernels, minicl::backward_kernels) == expected);
   const Outputs before_following = scene.run(lane_kernels);
   CHECK_FALSE(before_following == expected);
