@@ -295,7 +295,7 @@ private:
     run(Kernel::cache_starts);
     run(Kernel::cache_pairs);
     if (row_of(settings().batching).keeps_colors)
-      run_range(Kernel::release_colors, COLOR_START + KEPT_COLORS, COUNT_COMMIT_CONSTRAINTS);
+      run_range(Kernel::lower_colors, COLOR_START + KEPT_COLORS, COUNT_COMMIT_CONSTRAINTS);
     run(Kernel::cache_impulses);
     if (has(FEATURE_TREES)) run(Kernel::cache_normals);
     if (has(FEATURE_EVENTS))

@@ -22,7 +22,8 @@ void StepLaunches::run(Kernel kernel, const Values &values, const Slots &slots)
 
 void StepLaunches::run_range(Kernel kernel, uint32_t first, uint32_t last, const Values &values, const Slots &slots)
 {
-  launcher_.launch({kernel, slots, values, first, last, plan_.known[last] - plan_.known[first]});
+  const uint32_t end = std::max(plan_.known[first], plan_.known[last]); /* a commit may not have been planned */
+  launcher_.launch({kernel, slots, values, first, last, end - plan_.known[first]});
 }
 
 void StepLaunches::run_at_most(Kernel kernel, uint32_t most, const Values &values, const Slots &slots)

@@ -117,18 +117,35 @@ SHARED void color_assign_item(GLOBAL const Parameters *parameters, read_world_pa
                node_of(parameters, nodes.link, pairs.b[i]), bid_in_world(parameters, pairs, i), round, i);
 }
 
+/* Whether no contact of the body has a later colour, whatever its joints have. */
+SHARED uint is_last_color(GLOBAL const Parameters *parameters, GLOBAL const uint *body_colors,
+                          GLOBAL const uint *body_joint_colors, uint body, uint color)
+{
+  uint low = body_colors[2u * body], high = body_colors[2u * body + 1u];
+  if (HAS_FEATURE(parameters, JOINTS)) {
+    low &= ~body_joint_colors[2u * body];
+    high &= ~body_joint_colors[2u * body + 1u];
+  }
+  uint later = color < 32u ? (low >> color >> 1) | high : high >> (color - 32u) >> 1;
+  return later == 0u ? 1u : 0u;
+}
+
 /* Colours are kept from step to step, and contacts that go leave gaps among them. A contact of one of the last colours
- * that found a lower one free at both bodies is coloured anew in the next step, because each colour takes a launch in
- * every pass, however few contacts it has. */
-SHARED void release_colors_item(GLOBAL const Parameters *parameters, GLOBAL const uint *constraint_pair,
-                                GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, read_nodes nodes,
-                                GLOBAL const uint *pair_color, GLOBAL const uint *body_colors,
-                                GLOBAL uint *cached_color, uint i)
+ * takes a lower one that is free at both bodies, because each colour takes a launch in every pass, however few contacts
+ * it has. Only the last contact of both bodies does, so that no two of those that move meet at a body. */
+SHARED void lower_colors_item(GLOBAL const Parameters *parameters, GLOBAL const uint *constraint_pair,
+                              GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, read_nodes nodes,
+                              GLOBAL const uint *pair_color, GLOBAL const uint *body_colors,
+                              GLOBAL const uint *body_joint_colors, GLOBAL uint *cached_color, uint i)
 {
   uint pair = constraint_pair[i], color = pair_color[pair];
+  if (color >= COLOR_LIMIT) return;
   uint a = node_of(parameters, nodes.link, pair_a[pair]), b = node_of(parameters, nodes.link, pair_b[pair]);
-  uint free = free_color(body_colors, a, is_moving(nodes.flags, a), b, is_moving(nodes.flags, b));
-  if (free < color) cached_color[pair] = COLOR_NONE;
+  uint moving_a = is_moving(nodes.flags, a), moving_b = is_moving(nodes.flags, b);
+  if (moving_a && !is_last_color(parameters, body_colors, body_joint_colors, a, color)) return;
+  if (moving_b && !is_last_color(parameters, body_colors, body_joint_colors, b, color)) return;
+  uint free = free_color(body_colors, a, moving_a, b, moving_b);
+  if (free < color) cached_color[pair] = free;
 }
 
 /* The oracle: one item colours all contacts greedily in pair order. The sequential batching of the talks (GS-4150 slide
