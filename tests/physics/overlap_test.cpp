@@ -95,19 +95,27 @@ TEST_CASE("bodies in one place in empty space part, keep their momentum and hard
 
 /* 0.3 m deep; deep is more than a tenth of half a metre, and slow a tenth of the push speed. */
 /* Long bodies that turn by radians within a step slide on arms and masses that are no longer theirs; friction for those
- * drives them to any speed. The slabs' rims move at 38 m/s, and what bounces between two of them gains twice that. */
+ * drives them to any speed: 56 of the first 60 crowds beyond 272 m/s, 28 beyond 1640. The slabs' rims move at 38
+ * m/s, and what bounces between two of them gains twice that, once a step at most; few do so more than twice. */
 TEST_CASE("bodies that fly through each other gain no speed by friction", "[physics]")
 {
   const Solver solver = GENERATE(Solver::soft_step, Solver::pgs);
   CAPTURE(solver);
-  for (uint64_t seed = 1; seed <= 6; ++seed) {
+  constexpr int steps = 20;
+  constexpr double at_first = 120, of_bounce = 2 * 38;
+  uint32_t fast_crowds = 0;
+  for (uint64_t seed = 1; seed <= 30; ++seed) {
     CAPTURE(seed);
     World world(fast_cluster(seed), settings_for(solver));
-    for (int i = 0; i < 20; ++i) {
+    double most = 0;
+    for (int i = 0; i < steps; ++i) {
       world.step();
-      REQUIRE(fastest(world) < 120 + 4 * 38);
+      most = std::max(most, double(fastest(world)));
     }
+    REQUIRE(most < at_first + steps * of_bounce);
+    if (most > at_first + 2 * of_bounce) ++fast_crowds;
   }
+  CHECK(fast_crowds <= 5);
 }
 
 TEST_CASE("a box deep in a fixed one comes out slowly, at one speed, and stays where it is out", "[physics]")
