@@ -320,7 +320,8 @@ typedef struct {
 #define GROUP_contact_impulses(BUFFER)                                                                                 \
   BUFFER(constraint_normal_impulse, float4, normal)                                                                    \
   BUFFER(constraint_friction_impulse, float4, friction)                                                                \
-  BUFFER(constraint_restitution, float4, restitution)
+  BUFFER(constraint_restitution, float4, restitution)                                                                  \
+  BUFFER(constraint_impulse, float4, carried)
 
 /* The multipliers and penalties of contacts in solve/avbd.h. */
 #define GROUP_duals(BUFFER)                                                                                            \

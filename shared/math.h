@@ -46,6 +46,10 @@ SHARED vec4 make_vec4(real x, real y, real z, real w)
 SHARED vec4 extend(vec3 v, real w) { return make_vec4(v.x, v.y, v.z, w); }
 SHARED vec4 add4(vec4 a, vec4 b) { return make_vec4(a.x + b.x, a.y + b.y, a.z + b.z, a.w + b.w); }
 SHARED vec4 scale4(vec4 v, real s) { return make_vec4(v.x * s, v.y * s, v.z * s, v.w * s); }
+SHARED vec4 add_scaled4(vec4 sum, vec4 v, real factor)
+{
+  return make_vec4(sum.x + factor * v.x, sum.y + factor * v.y, sum.z + factor * v.z, sum.w + factor * v.w);
+}
 SHARED vec4 change_between(vec4 before, vec4 now)
 {
   return make_vec4(now.x - before.x, now.y - before.y, now.z - before.z, now.w - before.w);

@@ -67,10 +67,6 @@ SHARED void load_projections(projected_contact *c, read_contact_freedoms f, uint
 }
 
 SHARED vec4 no_speeds(void) { return make_vec4(R(0.0), R(0.0), R(0.0), R(0.0)); }
-SHARED vec4 add_scaled4(vec4 sum, vec4 v, real factor)
-{
-  return make_vec4(sum.x + factor * v.x, sum.y + factor * v.y, sum.z + factor * v.z, sum.w + factor * v.w);
-}
 SHARED real dot4(vec4 a, vec4 b) { return (a.x * b.x + a.y * b.y) + (a.z * b.z + a.w * b.w); }
 
 /* Row n of the normals, or of both directions of friction and the twist. */

@@ -29,6 +29,12 @@ SHARED vec3 spin_of(quat q, vec3 inverse_moments, vec3 momentum)
   return rotate(r, multiply(inverse_moments, rotate_back(r, momentum)));
 }
 
+/* Whether the angular velocity of a body in world axes changes as the body turns. mass: of body_mass. */
+SHARED mask is_uneven(spatial_velocity m, vec4 mass)
+{
+  return (m.inverse_mass > R(0.0)) & ((mass.x != mass.y) | (mass.y != mass.z));
+}
+
 typedef struct {
   quat orientation;
   vec3 angular;
@@ -144,8 +150,7 @@ SHARED void integrate_positions_item(GLOBAL const Parameters *parameters, GLOBAL
   quat next = turned(q, scale(m.angular, h));
   if (HAS_FEATURE(parameters, GYROSCOPIC)) {
     /* The choice is made for each body, so that its bits do not depend on the other bodies of the scene. */
-    mask uneven = (m.inverse_mass > R(0.0)) & ((mass.x != mass.y) | (mass.y != mass.z));
-    uneven = moved_among(parameters, body_class, uneven, i);
+    mask uneven = moved_among(parameters, body_class, is_uneven(m, mass), i);
     /* What holds an axis takes up the torque with which the body would change its angular velocity. */
     mask turns_freely = uneven & (angular_locks(locks) == 0u);
     spin s = turn_freely(q, m.angular, xyz(mass), h);

@@ -203,6 +203,9 @@ typedef struct {
 #define SAME_PLACE R(0.02)
 /* A mobility higher than that of the stored mass by this factor does not make an iteration diverge. */
 #define SAME_MOBILITY R(1.05)
+/* A mobility that differs from that of the stored mass by more than this factor is that of a body that lies otherwise,
+ * and not of arms that have followed a slide. */
+#define OTHER_MOBILITY R(2.0)
 
 SHARED mask masses_are_stale(delta_pose moved, arm_shift shift, vec4 center_a, vec4 center_b)
 {
@@ -229,6 +232,13 @@ SHARED real friction_mass_now(contact c, mask stale, real stored, vec3 slide, ve
   return choose(diverges, squared / choose(diverges, mobility, (real)R(1.0)), stored);
 }
 
+/* The mass of twisting at the current poses, in the same way. */
+SHARED real twist_mass_now(contact c, mask stale, real stored)
+{
+  if (!any_of(stale)) return stored;
+  return choose(stale, minimum(stored, twist_mass(bodies_of(c), c.normal)), stored);
+}
+
 /* The share of an impulse of sliding friction that does not leave the cone. */
 SHARED real share_within_cone(real first, real second, real limit)
 {
@@ -245,7 +255,7 @@ SHARED solved solve_friction(contact c, mask stale, arm_shift shift, vec4 center
   real limit = c.friction * normal_impulse_sum;
   real spin = dot3(c.normal, subtract(c.velocity_b.angular, c.velocity_a.angular));
   real twist_limit = limit * impulse.w;
-  real twist = clamped(impulse.z - center_b.w * spin, -twist_limit, twist_limit);
+  real twist = clamped(impulse.z - twist_mass_now(c, stale, center_b.w) * spin, -twist_limit, twist_limit);
   c = apply_turn(c, c.normal, c.normal, twist - impulse.z);
 
   tangents t = tangents_of(c.normal);
@@ -351,6 +361,59 @@ SHARED contact solve_normals(GLOBAL const Parameters *parameters, contact c, nor
   return block_solve_normals(c, s, target_impulse);
 }
 
+SHARED vec4 impulses_of(const normal_rows *s)
+{
+  return make_vec4(s->impulse[0], s->impulse[1], s->impulse[2], s->impulse[3]);
+}
+
+/* The square root of twice the energy that an impulse gives to a mass. */
+SHARED real root_of_energy(real impulse, real mass)
+{
+  mask used = mass > R(0.0);
+  return choose(used, impulse / square_root(choose(used, mass, (real)R(1.0))), (real)R(0.0));
+}
+
+/* How much of its impulses a contact hands on to the next substep. For the stored masses they cannot give more energy
+ * than if all of them were along one direction. Bodies that have turned since may be lighter: a thin rod by up to a
+ * thousand, if it was hit along its length and lies across now. friction_mass, twist_mass: as stored. */
+SHARED real share_handed_on(contact c, normal_rows s, wrench w, vec4 friction, real friction_mass, real twist_mass)
+{
+  real root = root_of_energy(square_root(friction.x * friction.x + friction.y * friction.y), friction_mass) +
+              root_of_energy(magnitude(friction.z), twist_mass);
+  for (uint k = 0; k < 4u; ++k) root = root + root_of_energy(s.impulse[k], s.mass[k]);
+  real whole = linear_response(bodies_of(c), w.impulse, w.impulse) +
+               dot3(w.angular_impulse_a, symmetric_times(c.inertia_a, w.angular_impulse_a)) +
+               dot3(w.angular_impulse_b, symmetric_times(c.inertia_b, w.angular_impulse_b));
+  real most = OTHER_MOBILITY * root * root;
+  mask too_much = whole > most;
+  return choose(too_much, most / choose(too_much, whole, (real)R(1.0)), (real)R(1.0));
+}
+
+/* Adds the impulses of this substep to the warm start of the next one. */
+SHARED void hand_on_impulses_if(mask wanted, GLOBAL const Parameters *parameters,
+                                write_contact_impulses contact_impulses, GLOBAL float4 *warm_start_impulse, contact c,
+                                normal_rows s, vec4 friction, delta_pose moved, arm_shift shift, vec4 center_a,
+                                vec4 center_b, item_index i)
+{
+  wrench w = wrench_of(c, s, add(xyz(center_a), shift.a), add(xyz(center_b), shift.b), friction);
+  mask stale = wanted & masses_are_stale(moved, shift, center_a, center_b);
+  if (any_of(stale)) {
+    real share = choose(stale, share_handed_on(c, s, w, friction, center_a.w, center_b.w), (real)R(1.0));
+    mask less = share < R(1.0);
+    w.impulse = scale(w.impulse, share);
+    w.angular_impulse_a = scale(w.angular_impulse_a, share);
+    w.angular_impulse_b = scale(w.angular_impulse_b, share);
+    store_float4_if(less, contact_impulses.normal, i, scale4(impulses_of(&s), share));
+    if (HAS_FEATURE(parameters, EVENTS))
+      store_float4_if(less, contact_impulses.carried, i,
+                      add_scaled4(load_float4(contact_impulses.carried, i), impulses_of(&s), R(1.0) - share));
+    if (HAS_FEATURE(parameters, FRICTION))
+      store_float4_if(less, contact_impulses.friction, i,
+                      make_vec4(friction.x * share, friction.y * share, friction.z * share, friction.w));
+  }
+  add_warm_start_impulse_if(wanted, warm_start_impulse, c, w);
+}
+
 /* Further passes over the points of an impact. The points are coupled, and a single pass would leave a fast body
  * moving; these bring all points to rest. */
 #define IMPACT_ROUNDS 15u
@@ -368,11 +431,6 @@ SHARED contact apply_changes(contact c, const normal_rows *s, vec4 changes)
   c.velocity_a.linear = pushed(c.velocity_a.linear, c.locks_a, c.normal, -(c.velocity_a.inverse_mass * sum));
   c.velocity_b.linear = pushed(c.velocity_b.linear, c.locks_b, c.normal, c.velocity_b.inverse_mass * sum);
   return apply_turn(c, r_cross_n_a, r_cross_n_b, R(1.0));
-}
-
-SHARED vec4 impulses_of(const normal_rows *s)
-{
-  return make_vec4(s->impulse[0], s->impulse[1], s->impulse[2], s->impulse[3]);
 }
 
 /* The highest impulse that each point has carried within the step. Only points that carried an impulse bounce. */
@@ -428,9 +486,9 @@ SHARED void settle_impact(GLOBAL const Parameters *parameters, read_contacts con
   c = apply_changes(c, &s, changes);
   store_contact_velocities_if(at_impact, solver_velocity, c);
   if (pass == PASS_RELAXING)
-    add_warm_start_impulse_if(at_impact, warm_start_impulse, c,
-                              wrench_of(c, s, add(xyz(center), shift.a), add(xyz(center_of_b(center, offset)), shift.b),
-                                        load_friction(parameters, contact_impulses.friction, i)));
+    hand_on_impulses_if(at_impact, parameters, contact_impulses, warm_start_impulse, c, s,
+                        load_friction(parameters, contact_impulses.friction, i), moved, shift, center,
+                        center_of_b(center, offset), i);
 }
 
 SHARED void solve_contacts_item(GLOBAL const Parameters *parameters, read_contacts contacts, read_patches patches,
@@ -467,8 +525,8 @@ SHARED void solve_contacts_item(GLOBAL const Parameters *parameters, read_contac
   store_contact_velocities(solver_velocity, c);
   mask at_impact = c.follows == R(0.0);
   if (pass == PASS_RELAXING)
-    add_warm_start_impulse_if(!at_impact, warm_start_impulse, c,
-                              wrench_of(c, s, add(xyz(center_a), shift.a), add(xyz(center_b), shift.b), friction));
+    hand_on_impulses_if(!at_impact, parameters, contact_impulses, warm_start_impulse, c, s, friction, moved, shift,
+                        center_a, center_b, i);
   if (any_of(at_impact))
     settle_impact(parameters, contacts, patches, solver_inertia, solver_delta_pose, planes, contact_impulses,
                   solver_velocity, warm_start_impulse, pass, i);

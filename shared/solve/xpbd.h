@@ -48,10 +48,13 @@ SHARED solved xpbd_twist(contact c, real spin, real mass, real limit, vec4 old)
   return s;
 }
 
-SHARED solved xpbd_slide(contact c, vec3 slide, vec3 arm_a, vec3 arm_b, real mass, real limit, vec4 old)
+SHARED solved xpbd_slide(contact c, mask stale, vec3 slide, vec3 arm_a, vec3 arm_b, real stored, real limit, vec4 old)
 {
   tangents t = tangents_of(c.normal);
-  real first = old.x - mass * dot3(slide, t.first), second = old.y - mass * dot3(slide, t.second);
+  real slide_first = dot3(slide, t.first), slide_second = dot3(slide, t.second);
+  vec3 along = add(scale(t.first, slide_first), scale(t.second, slide_second));
+  real mass = friction_mass_now(c, stale, stored, along, arm_a, arm_b);
+  real first = old.x - mass * slide_first, second = old.y - mass * slide_second;
   real squared = first * first + second * second;
   mask slips = squared > limit * limit;
   real shrink = choose(slips, limit / square_root(choose(slips, squared, (real)R(1.0))), (real)R(1.0));
@@ -110,9 +113,10 @@ SHARED solved xpbd_hold(GLOBAL const Parameters *parameters, contact c, delta_po
   vec4 center_a = load_float4(patches.center, i), center_b = center_of_b(center_a, load_float4(patches.offset, i));
   vec3 arm_a = add(xyz(center_a), shift.a), arm_b = add(xyz(center_b), shift.b);
   slipped slip = slip_since(slip_before, c, moved, arm_a, arm_b, parameters->inverse_substep);
-  solved held = xpbd_twist(c, spin_between(c) + slip.twist, center_b.w, limit, friction);
+  mask stale = masses_are_stale(moved, shift, center_a, center_b);
+  solved held = xpbd_twist(c, spin_between(c) + slip.twist, twist_mass_now(c, stale, center_b.w), limit, friction);
   vec3 slide = add(slide_between(held.c, arm_a, arm_b), slip.slide);
-  return xpbd_slide(held.c, slide, arm_a, arm_b, center_a.w, limit, held.impulse);
+  return xpbd_slide(held.c, stale, slide, arm_a, arm_b, center_a.w, limit, held.impulse);
 }
 
 /* first_iteration: 1 in the first iteration of a substep, in which multipliers start at 0. */
@@ -178,8 +182,11 @@ SHARED void xpbd_velocities_item(GLOBAL const Parameters *parameters, read_conta
     vec4 center_a = load_float4(patches.center, i), center_b = center_of_b(center_a, load_float4(patches.offset, i));
     vec3 arm_a = add(xyz(center_a), shift.a), arm_b = add(xyz(center_b), shift.b);
     real limit = limit_of(c, impulses_of(&s));
-    solved held = xpbd_twist(c, spin_between(c), center_b.w, limit, load_float4(constraint_friction_impulse, i));
-    held = xpbd_slide(held.c, slide_between(held.c, arm_a, arm_b), arm_a, arm_b, center_a.w, limit, held.impulse);
+    mask stale = masses_are_stale(moved, shift, center_a, center_b);
+    solved held = xpbd_twist(c, spin_between(c), twist_mass_now(c, stale, center_b.w), limit,
+                             load_float4(constraint_friction_impulse, i));
+    held =
+        xpbd_slide(held.c, stale, slide_between(held.c, arm_a, arm_b), arm_a, arm_b, center_a.w, limit, held.impulse);
     c = with_velocities_if(rough, c, held.c);
     store_float4_if(rough, constraint_friction_impulse, i, held.impulse);
   }

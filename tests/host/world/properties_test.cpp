@@ -202,9 +202,10 @@ namespace {
 /* How many spinning rods fly through a thin wall, if they become continuous after their first step or not. */
 int passed(bool continuous)
 {
+  constexpr int shots = 200;
   Random random(5);
   int through = 0;
-  for (int shot = 0; shot < 30; ++shot) {
+  for (int shot = 0; shot < shots; ++shot) {
     Scene scene = weightless();
     scene.shapes = {box_shape(0.002f, 50, 50), capsule_shape(0.01f, 0.05f)};
     scene.bodies = {body_at({0, 0, 0}), body_at({-20 - random.uniform(0, 5), 0, 0}, 1)};
