@@ -232,10 +232,10 @@ SHARED real friction_mass_now(contact c, mask stale, real stored, vec3 slide, ve
   return choose(diverges, squared / choose(diverges, mobility, (real)R(1.0)), stored);
 }
 
-/* The mass of twisting at the current poses, in the same way. */
+/* The mass of twisting at the current poses, in the same way. Without uneven bodies it is the stored one. */
 SHARED real twist_mass_now(contact c, mask stale, real stored)
 {
-  if (!any_of(stale)) return stored;
+  if (!MAY_OCCUR(GYROSCOPIC) || !any_of(stale)) return stored;
   return choose(stale, minimum(stored, twist_mass(bodies_of(c), c.normal)), stored);
 }
 
@@ -366,6 +366,18 @@ SHARED vec4 impulses_of(const normal_rows *s)
   return make_vec4(s->impulse[0], s->impulse[1], s->impulse[2], s->impulse[3]);
 }
 
+/* Whether turning changes the inertia of one of the bodies in world axes. It is told from the tensors, because features
+ * that a scene does not need change no bits. */
+SHARED mask is_uneven_tensor(symmetric3 s)
+{
+  return (s.xx != s.yy) | (s.yy != s.zz) | (s.xy != R(0.0)) | (s.xz != R(0.0)) | (s.yz != R(0.0));
+}
+SHARED mask turns_unevenly(GLOBAL const Parameters *parameters, contact c)
+{
+  if (!HAS_FEATURE(parameters, GYROSCOPIC)) return c.friction < R(0.0); /* never */
+  return is_uneven_tensor(c.inertia_a) | is_uneven_tensor(c.inertia_b);
+}
+
 /* The square root of twice the energy that an impulse gives to a mass. */
 SHARED real root_of_energy(real impulse, real mass)
 {
@@ -396,7 +408,7 @@ SHARED void hand_on_impulses_if(mask wanted, GLOBAL const Parameters *parameters
                                 vec4 center_b, item_index i)
 {
   wrench w = wrench_of(c, s, add(xyz(center_a), shift.a), add(xyz(center_b), shift.b), friction);
-  mask stale = wanted & masses_are_stale(moved, shift, center_a, center_b);
+  mask stale = wanted & turns_unevenly(parameters, c) & masses_are_stale(moved, shift, center_a, center_b);
   if (any_of(stale)) {
     real share = choose(stale, share_handed_on(c, s, w, friction, center_a.w, center_b.w), (real)R(1.0));
     mask less = share < R(1.0);
