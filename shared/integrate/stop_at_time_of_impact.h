@@ -10,11 +10,9 @@
 #include "shared/integrate/positions.h"
 #include "shared/locks.h"
 
-SHARED void turn_spin(mask wanted, quat from, quat to, GLOBAL float4 *solver_velocity, item_index i)
+SHARED vec3 turned_with_body(vec3 spin, quat from, quat to)
 {
-  spatial_velocity m = load_velocity(solver_velocity, i);
-  m.angular = rotate(rotation_of(to), rotate_back(rotation_of(from), m.angular));
-  store_velocity_if(wanted, solver_velocity, i, m);
+  return rotate(rotation_of(to), rotate_back(rotation_of(from), spin));
 }
 
 /* body_toi_fraction: the fraction of the motion that is kept, in 1 / 2^24. */
@@ -33,9 +31,10 @@ SHARED void stop_at_time_of_impact_item(GLOBAL const Parameters *parameters, GLO
   if (HAS_FEATURE(parameters, GYROSCOPIC)) {
     /* What holds an axis keeps the spin about the others in world axes. */
     uint_lanes locks = HAS_FEATURE(parameters, LOCKS) ? load_uint(body_lock, i) : (uint_lanes)0u;
-    mask uneven = is_uneven(load_velocity(solver_velocity, i), load_float4(body_mass, i));
-    turn_spin(cut & uneven & (angular_locks(locks) == 0u), quat_from(load_float4(solver_orientation, i)), stopped,
-              solver_velocity, i);
+    spatial_velocity m = load_velocity(solver_velocity, i);
+    mask turns = cut & is_uneven(m, load_float4(body_mass, i)) & (angular_locks(locks) == 0u);
+    m.angular = turned_with_body(m.angular, quat_from(load_float4(solver_orientation, i)), stopped);
+    store_velocity_if(turns, solver_velocity, i, m);
   }
   store_float4_if(cut, solver_delta_pose, i * 2u, extend(translation, R(0.0)));
   store_float4_if(cut, solver_delta_pose, i * 2u + 1u, extend(rotation, R(0.0)));

@@ -366,16 +366,11 @@ SHARED vec4 impulses_of(const normal_rows *s)
   return make_vec4(s->impulse[0], s->impulse[1], s->impulse[2], s->impulse[3]);
 }
 
-/* Whether turning changes the inertia of one of the bodies in world axes. It is told from the tensors, because features
- * that a scene does not need change no bits. */
+/* Whether turning changes an inverse inertia in world axes. It is told from the tensor, because features that a scene
+ * does not need change no bits. */
 SHARED mask is_uneven_tensor(symmetric3 s)
 {
   return (s.xx != s.yy) | (s.yy != s.zz) | (s.xy != R(0.0)) | (s.xz != R(0.0)) | (s.yz != R(0.0));
-}
-SHARED mask turns_unevenly(GLOBAL const Parameters *parameters, contact c)
-{
-  if (!HAS_FEATURE(parameters, GYROSCOPIC)) return c.friction < R(0.0); /* never */
-  return is_uneven_tensor(c.inertia_a) | is_uneven_tensor(c.inertia_b);
 }
 
 /* The square root of twice the energy that an impulse gives to a mass. */
@@ -408,17 +403,19 @@ SHARED void hand_on_impulses_if(mask wanted, GLOBAL const Parameters *parameters
                                 vec4 center_b, item_index i)
 {
   wrench w = wrench_of(c, s, add(xyz(center_a), shift.a), add(xyz(center_b), shift.b), friction);
-  mask stale = wanted & turns_unevenly(parameters, c) & masses_are_stale(moved, shift, center_a, center_b);
-  if (any_of(stale)) {
+  mask uneven = is_uneven_tensor(c.inertia_a) | is_uneven_tensor(c.inertia_b);
+  mask stale = wanted & uneven & masses_are_stale(moved, shift, center_a, center_b);
+  if (HAS_FEATURE(parameters, GYROSCOPIC) && any_of(stale)) {
     real share = choose(stale, share_handed_on(c, s, w, friction, center_a.w, center_b.w), (real)R(1.0));
     mask less = share < R(1.0);
     w.impulse = scale(w.impulse, share);
     w.angular_impulse_a = scale(w.angular_impulse_a, share);
     w.angular_impulse_b = scale(w.angular_impulse_b, share);
-    store_float4_if(less, contact_impulses.normal, i, scale4(impulses_of(&s), share));
+    vec4 normal_impulses = impulses_of(&s);
+    store_float4_if(less, contact_impulses.normal, i, scale4(normal_impulses, share));
     if (HAS_FEATURE(parameters, EVENTS))
       store_float4_if(less, contact_impulses.carried, i,
-                      add_scaled4(load_float4(contact_impulses.carried, i), impulses_of(&s), R(1.0) - share));
+                      add_scaled4(load_float4(contact_impulses.carried, i), normal_impulses, R(1.0) - share));
     if (HAS_FEATURE(parameters, FRICTION))
       store_float4_if(less, contact_impulses.friction, i,
                       make_vec4(friction.x * share, friction.y * share, friction.z * share, friction.w));

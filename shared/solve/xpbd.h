@@ -55,9 +55,7 @@ SHARED solved xpbd_slide(contact c, mask stale, vec3 slide, vec3 arm_a, vec3 arm
   vec3 along = add(scale(t.first, slide_first), scale(t.second, slide_second));
   real mass = friction_mass_now(c, stale, stored, along, arm_a, arm_b);
   real first = old.x - mass * slide_first, second = old.y - mass * slide_second;
-  real squared = first * first + second * second;
-  mask slips = squared > limit * limit;
-  real shrink = choose(slips, limit / square_root(choose(slips, squared, (real)R(1.0))), (real)R(1.0));
+  real shrink = share_within_cone(first, second, limit);
   first = first * shrink;
   second = second * shrink;
   vec3 change = add(scale(t.first, first - old.x), scale(t.second, second - old.y));
