@@ -3,7 +3,8 @@
  *
  * An uneven body keeps its spin in its own axes, as it is at the end of the whole motion, and with it its energy. The
  * same spin in world axes would be one about another of its axes: a thin rod has a thousand times the energy if it
- * turns across its length and not about it. */
+ * turns across its length and not about it. A body that is held about an axis cannot turn its spin so: its spin keeps
+ * its direction in world axes, and is slowed where it would have more energy than at the end of the whole motion. */
 #ifndef TANDEM_SHARED_INTEGRATE_STOP_AT_TIME_OF_IMPACT_H
 #define TANDEM_SHARED_INTEGRATE_STOP_AT_TIME_OF_IMPACT_H
 
@@ -13,6 +14,22 @@
 SHARED vec3 turned_with_body(vec3 spin, quat from, quat to)
 {
   return rotate(rotation_of(to), rotate_back(rotation_of(from), spin));
+}
+
+/* Twice the energy of a spin; an axis about which the body has no finite moment does not count. */
+SHARED real energy_of_spin(quat orientation, vec3 inverse_moments, vec3 angular)
+{
+  vec3 own = rotate_back(rotation_of(orientation), angular);
+  return own.x * own.x * held_share(inverse_moments.x) + own.y * own.y * held_share(inverse_moments.y) +
+         own.z * own.z * held_share(inverse_moments.z);
+}
+
+/* The factor that leaves a spin in world axes no more energy at one orientation than it had at another. */
+SHARED real share_of_spin(quat from, quat to, vec3 inverse_moments, vec3 angular)
+{
+  real before = energy_of_spin(from, inverse_moments, angular), after = energy_of_spin(to, inverse_moments, angular);
+  mask grows = after > before;
+  return choose(grows, square_root(before / choose(grows, after, (real)R(1.0))), (real)R(1.0));
 }
 
 /* body_toi_fraction: the fraction of the motion that is kept, in 1 / 2^24. */
@@ -29,12 +46,14 @@ SHARED void stop_at_time_of_impact_item(GLOBAL const Parameters *parameters, GLO
        rotation = scale(xyz(load_float4(solver_delta_pose, i * 2u + 1u)), share);
   quat stopped = turned(quat_from(load_float4(body_orientation, i)), rotation);
   if (HAS_FEATURE(parameters, GYROSCOPIC)) {
-    /* What holds an axis keeps the spin about the others in world axes. */
     uint_lanes locks = HAS_FEATURE(parameters, LOCKS) ? load_uint(body_lock, i) : (uint_lanes)0u;
     spatial_velocity m = load_velocity(solver_velocity, i);
-    mask turns = cut & is_uneven(m, load_float4(body_mass, i)) & (angular_locks(locks) == 0u);
-    m.angular = turned_with_body(m.angular, quat_from(load_float4(solver_orientation, i)), stopped);
-    store_velocity_if(turns, solver_velocity, i, m);
+    vec4 mass = load_float4(body_mass, i);
+    mask uneven = cut & is_uneven(m, mass), turns = angular_locks(locks) == 0u;
+    quat whole = quat_from(load_float4(solver_orientation, i));
+    vec3 held = scale(m.angular, share_of_spin(whole, stopped, xyz(mass), m.angular));
+    m.angular = choose3(turns, turned_with_body(m.angular, whole, stopped), held);
+    store_velocity_if(uneven, solver_velocity, i, m);
   }
   store_float4_if(cut, solver_delta_pose, i * 2u, extend(translation, R(0.0)));
   store_float4_if(cut, solver_delta_pose, i * 2u + 1u, extend(rotation, R(0.0)));

@@ -248,6 +248,40 @@ TEST_CASE("direct: boxes in one place come apart without flying off", "[physics]
   CHECK(fastest < 20);
 }
 
+TEST_CASE("direct: a box jammed between two walls has small impulses, and comes loose gently", "[physics][direct]")
+{
+  for (const float friction : {0.0f, 0.5f}) {
+    Scene scene = empty_scene({0, 0, 0});
+    scene.materials[0].static_friction = scene.materials[0].dynamic_friction = friction;
+    add_body(scene, BodyType::fixed, box_shape(0.5f, 2, 2), {-0.9f, 0, 0});
+    add_body(scene, BodyType::kinematic, box_shape(0.5f, 2, 2), {0.85f, 0, 0});
+    add_body(scene, BodyType::dynamic, box_shape(0.5f, 0.5f, 0.5f), {0, 0, 0}).mass = 1;
+    Settings settings = direct();
+    settings.events = true;
+    World world(scene, settings);
+    double largest = 0, fastest = 0;
+    for (int k = 0; k < 60; ++k) {
+      world.step();
+      for (const ContactEvent &event : world.contact_events()) largest = std::max<double>(largest, event.impulse);
+      fastest = std::max<double>(fastest, vector_of(world.bodies()[2].linear_velocity).norm());
+    }
+    BodyState wall = world.bodies()[1];
+    wall.position[0] += 10;
+    world.set_body(1, wall);
+    for (int k = 0; k < 30; ++k) {
+      world.step();
+      fastest = std::max<double>(fastest, vector_of(world.bodies()[2].linear_velocity).norm());
+    }
+    CAPTURE(friction);
+    INFO("largest impulse " << largest << " N s, fastest " << fastest << " m/s");
+    CHECK(largest > 0);
+    /* Each of four substeps may push with the speed at which overlaps part. */
+    CHECK(largest < 4 * settings.push_speed);
+    CHECK(fastest < settings.push_speed);
+    CHECK(world.bodies()[2].position[0] > 0.07);
+  }
+}
+
 TEST_CASE("direct: free fall follows the parabola", "[physics][direct]")
 {
   Scene scene = empty_scene();

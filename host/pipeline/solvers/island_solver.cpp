@@ -30,8 +30,13 @@ struct Reach {
 /* Four points of a face can carry one load in many ways, and each float is rounded a little differently, so that none
  * of these ways fits exactly. A compliance, relative to each row's own response, selects the solution nearest to the
  * guess; at rest, where the guess is the solution, it has no effect. With a much smaller compliance, rounding
- * alone would decide which points carry the load. */
-constexpr double compliance = 1e-6;
+ * alone would decide which points carry the load.
+ *
+ * A body held from two sides cannot have the speeds that both want, and its impulses grow until the compliance gives
+ * way. From `noticeable` on, as a share of the largest speed, it is asked whether that is so (follow_loads); otherwise
+ * impulses a million times too large would be the guess for the time when the body has come loose. */
+constexpr double compliance = 1e-6, noticeable = 1e-4, as_much = 0.95;
+constexpr int most_loads = 8;
 constexpr double tolerance = 1e-9;
 constexpr double rounding = 1e-13; /* relative to the sums that make a speed */
 constexpr int rounds = 4, newton_limit = 16, first_iterations = 32;
@@ -82,9 +87,10 @@ public:
         is_coupled_(arena.take<bool>(problem.rows))
   {
     matrix_ = Eigen::Map<const RowMajor>(problem.matrix.data(), n_, n_);
-    guess_ = x_ = Eigen::Map<const Eigen::VectorXd>(problem.impulse.data(), n_);
+    near_ = x_ = Eigen::Map<const Eigen::VectorXd>(problem.impulse.data(), n_);
+    wanted_ = Eigen::Map<const Eigen::VectorXd>(problem.offset.data(), n_);
     own_ = matrix_.diagonal();
-    yield(compliance, guess_);
+    yield(compliance, near_);
     for (Eigen::Index i = 0; i < n_; ++i) step_[i] = 1 / matrix_(i, i);
     for (const ManifoldRows &m : problem_.manifolds)
       if (m.slides) step_[tangent(m)] = step_[tangent(m) + 1] = tangent_step(tangent(m));
@@ -98,9 +104,22 @@ public:
 
   IslandResult run()
   {
+    approach();
+    follow_loads();
+    const Eigen::Map<const Eigen::VectorXd> offset(problem_.offset.data(), n_);
+    result_.yielded = (wanted_ - offset).cwiseAbs().maxCoeff() + yielded_speed();
+    std::copy_n(best_.data(), n_, problem_.impulse.begin());
+    return result_;
+  }
+
+private:
+  /* From x_ to the solution nearest to near_. */
+  void approach()
+  {
     admit(x_);
     best_ = x_;
     result_.residual = residual(x_);
+    result_.converged = false;
     for (int round = 0; round < rounds && !result_.converged; ++round) {
       newton(x_, round % 2 == 0);
       if (result_.converged) break;
@@ -108,11 +127,43 @@ public:
       if (round > 0) soften(x_);
       iterate(x_, first_iterations << round);
     }
-    std::copy_n(best_.data(), n_, problem_.impulse.begin());
-    return result_;
   }
 
-private:
+  void approach_anew()
+  {
+    yield(compliance, near_);
+    approach();
+  }
+
+  /* The largest speed that the compliance has taken from what a row wants. */
+  double yielded_speed() const { return compliance * own_.cwiseProduct(best_ - near_).cwiseAbs().maxCoeff(); }
+
+  bool yields_noticeably() const { return yielded_speed() > noticeable * wanted_.cwiseAbs().maxCoeff(); }
+
+  /* Under a load far above what bears it, the compliance yields less about each solution than about the one before
+   * (proximal point method). Where it yields as much again, rows want what cannot be. */
+  void follow_loads()
+  {
+    for (int k = 0; k < most_loads && yields_noticeably(); ++k) {
+      const double yielded = yielded_speed();
+      near_ = x_ = best_;
+      approach_anew();
+      if (yielded_speed() > as_much * yielded) return settle_contradictions();
+    }
+  }
+
+  /* Rows that contradict each other want now what they have got, and of the impulses that give it those are taken that
+   * are nearest to 0. */
+  void settle_contradictions()
+  {
+    for (Eigen::Index i = 0; i < n_; ++i) wanted_[i] += compliance * own_[i] * (best_[i] - near_[i]);
+    near_.setZero();
+    x_ = Eigen::Map<const Eigen::VectorXd>(problem_.impulse.data(), n_);
+    approach_anew();
+    near_ = x_ = best_;
+    approach_anew();
+  }
+
   Vector vector() { return {arena_.take<double>(static_cast<size_t>(n_)), n_}; }
   Matrix square() { return {arena_.take<double>(static_cast<size_t>(n_ * n_)), n_, n_}; }
 
@@ -123,7 +174,7 @@ private:
   void yield(double share, const Vector &about)
   {
     for (Eigen::Index i = 0; i < n_; ++i) {
-      offset_[i] = problem_.offset[static_cast<size_t>(i)] - share * own_[i] * about[i];
+      offset_[i] = wanted_[i] - share * own_[i] * about[i];
       matrix_(i, i) = own_[i] * (1 + share);
     }
   }
@@ -141,7 +192,7 @@ private:
       }
       admit(x);
     }
-    yield(compliance, guess_);
+    yield(compliance, near_);
   }
 
   /* One step for both tangents, because the projection on a circle would otherwise not be a projection: 1 / largest
@@ -422,8 +473,9 @@ private:
   Eigen::Index *ends_, *coupled_; /* of elimination; the rows that take part in it */
   bool *is_coupled_;
   Matrix matrix_ = square(), derivative_ = square(), system_ = square();
-  Vector guess_ = vector(), own_ = vector(), offset_ = vector(), step_ = vector(), speed_ = vector(), map_ = vector(),
-         x_ = vector(), best_ = vector(), inside_ = vector(), there_ = vector(), change_ = vector(), right_ = vector();
+  Vector near_ = vector(), own_ = vector(), wanted_ = vector(), offset_ = vector(), step_ = vector(), speed_ = vector(),
+         map_ = vector(), x_ = vector(), best_ = vector(), inside_ = vector(), there_ = vector(), change_ = vector(),
+         right_ = vector();
   IslandResult result_;
 };
 
@@ -438,7 +490,7 @@ IslandResult solve_island(IslandProblem &problem, Arena &arena)
 /* The sum of the members of IslandSolver that lie in the arena, which throws where one was forgotten here. */
 size_t island_solver_bytes(size_t rows)
 {
-  return 3 * Arena::bytes_of<double>(rows * rows) + 12 * Arena::bytes_of<double>(rows) +
+  return 3 * Arena::bytes_of<double>(rows * rows) + 13 * Arena::bytes_of<double>(rows) +
          2 * Arena::bytes_of<Eigen::Index>(rows) + Arena::bytes_of<Reach>(rows) + Arena::bytes_of<bool>(rows);
 }
 
