@@ -1,4 +1,4 @@
-/* contact.h - contacts of which a side is a link: the rows of solve/contact.h, with the response of the tree.
+/* contact.h - contacts of which a side is a link: the rows of solve/soft_step.h, with the response of the tree.
  *
  *   load     the velocity and the inverse inertia of the two bodies as one (relative.h)
  *   solve    friction at the centre, then the normals as a block
@@ -15,7 +15,7 @@
 #define TANDEM_SHARED_ARTICULATIONS_CONTACT_H
 
 #include "shared/articulations/relative.h"
-#include "shared/solve/contact.h"
+#include "shared/solve/soft_step.h"
 
 typedef struct {
   mask wanted; /* others write nothing */
@@ -207,7 +207,7 @@ SHARED link_normals load_link_normals(const link_contact *c, read_patches patche
   return s;
 }
 
-/* block_solve_normals of solve/contact.h: all points move towards their targets along one direction. */
+/* block_solve_normals of solve/contact_normals.h: all points move towards their targets along one direction. */
 SHARED void block_solve_link_normals(link_contact *c, link_normals *s, const real *target)
 {
   real change[4], own = R(0.0);
@@ -238,15 +238,14 @@ SHARED void solve_link_normals(GLOBAL const Parameters *parameters, link_contact
   block_solve_link_normals(c, s, target);
 }
 
-/* Towards the target velocities of restitution, as apply_restitution_item of solve/contact.h. */
+/* Towards the target velocities of restitution, as apply_restitution_item of solve/restitution.h. */
 SHARED void bounce_link_normals(link_contact *c, link_normals *s, vec4 target_velocity, vec4 highest)
 {
   real wanted[4];
   for (uint k = 0; k < 4u; ++k) {
-    real target = component(target_velocity, k);
-    mask applies = (target >= R(0.0)) & (component(highest, k) > R(0.0));
+    real speed = power_of(s->row[k], c->body.velocity);
     wanted[k] =
-        choose(applies, s->impulse[k] - s->mass[k] * (power_of(s->row[k], c->body.velocity) - target), s->impulse[k]);
+        bouncing_impulse(component(target_velocity, k), component(highest, k), speed, s->mass[k], s->impulse[k]);
   }
   block_solve_link_normals(c, s, wanted);
 }
@@ -301,7 +300,7 @@ SHARED void solve_rounds_of_normals(GLOBAL const Parameters *parameters, link_co
   for (uint k = 0; k < 4u; ++k) s->impulse[k] = component(often, k);
 }
 
-/* Rows of impulses are read and written by the functions below as those of solve/contact.h do. */
+/* Rows of impulses are read and written by the functions below as those of solve/soft_step.h do. */
 SHARED void solve_link_contact(GLOBAL const Parameters *parameters, link_contact *c, read_patches patches,
                                point_planes planes, write_contact_impulses impulses, GLOBAL float4 *warm_start_impulse,
                                uint pass, uint_lanes i)

@@ -1,5 +1,5 @@
 /* solve_tree_contacts.h - the contacts of a tree that has them for itself, one after another: friction at the centre,
- * then the normals as a block, as solve/contact.h does.
+ * then the normals as a block, as solve/soft_step.h does.
  *
  *     read      the rows of the contact in the freedoms of the tree, and their terms (contact_rows.h)
  *     solve     speed of a row = that before the pass + its projection . z
@@ -176,7 +176,7 @@ SHARED real change_of_normal(real mass, real target, real impulse)
 }
 SHARED real pulls_least(vec4 v) { return minimum(minimum(v.x, v.y), minimum(v.z, v.w)); }
 
-/* block_solve_normals of solve/contact.h: all points move towards their targets along one direction. */
+/* block_solve_normals of solve/contact_normals.h: all points move towards their targets along one direction. */
 SHARED void block_solve_tree_normals(tree_normals *s, vec4 target)
 {
   vec4 m = s->mass, before = s->impulse;
@@ -215,14 +215,13 @@ SHARED void solve_rounds_of_tree_normals(GLOBAL const Parameters *parameters, tr
   s->impulse = choose4(at_impact, s->impulse, once);
 }
 
-/* Towards the target velocities of restitution, as apply_restitution_item of solve/contact.h. */
+/* Towards the target velocities of restitution, as apply_restitution_item of solve/restitution.h. */
 SHARED void bounce_tree_normals(tree_normals *s, vec4 target_velocity, vec4 highest)
 {
   real wanted[4];
   for (uint k = 0; k < 4u; ++k) {
-    real target = component(target_velocity, k), impulse = component(s->impulse, k);
-    mask applies = (target >= R(0.0)) & (component(highest, k) > R(0.0));
-    wanted[k] = choose(applies, impulse - component(s->mass, k) * (component(s->speed, k) - target), impulse);
+    wanted[k] = bouncing_impulse(component(target_velocity, k), component(highest, k), component(s->speed, k),
+                                 component(s->mass, k), component(s->impulse, k));
   }
   block_solve_tree_normals(s, make_vec4(wanted[0], wanted[1], wanted[2], wanted[3]));
 }

@@ -5,7 +5,7 @@
  *   after the last one     an axis whose limit pushed, and which went towards it fast enough, gets its speed back,
  *                          turned round and times the restitution
  *
- * Contacts bounce likewise (solve/contact.h).
+ * Contacts bounce likewise (solve/restitution.h).
  */
 #ifndef TANDEM_SHARED_JOINTS_BOUNCE_H
 #define TANDEM_SHARED_JOINTS_BOUNCE_H

@@ -1,7 +1,7 @@
 /* solve.h - the passes of joints in all solvers that have them: limits and drives first, then angular rows as one
  * block, then linear rows as another. Which passes a solver makes: host/pipeline/solvers/joints.h.
  *
- * A joint is a soft constraint as a contact is (solve/contact.h): a pass with bias closes what is open like an
+ * A joint is a soft constraint as a contact is (solve/contact_normals.h): a pass with bias closes what is open like an
  * overdamped spring, and a relaxing pass takes the velocity of closing out again. Both blocks are solved where the
  * bodies are now, so a joint follows any turn within a step. (Catto, "Soft Constraints", GDC 2011; Box2D version 3.)
  *

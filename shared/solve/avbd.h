@@ -24,7 +24,7 @@
 #define TANDEM_SHARED_SOLVE_AVBD_H
 
 #include "shared/solve/avbd_penalties.h"
-#include "shared/solve/contact.h"
+#include "shared/solve/restitution.h"
 
 /* Impulses and violations of one constraint at the present velocities. */
 typedef struct {

@@ -5,12 +5,12 @@
 #define TANDEM_SHARED_SOLVE_KERNELS_H
 
 #include "shared/solve/avbd.h"
-#include "shared/solve/contact.h"
 #include "shared/solve/mass_split.h"
 #include "shared/solve/nncg.h"
 #include "shared/solve/pgs.h"
 #include "shared/solve/rolling.h"
 #include "shared/solve/share_impulses.h"
+#include "shared/solve/soft_step.h"
 #include "shared/solve/xpbd.h"
 
 #ifndef TANDEM_LANES /* ITEM and GROUP kernels take one item at a time */

@@ -15,14 +15,15 @@
  * overshoots, but a body of n constraints is n times as soft in each of them, so it takes more iterations than solving
  * colour after colour.
  *
- * The rows are those of shared/solve/contact.h, with the same fixed points. The solver `jacobi` uses them for all
+ * The rows are those of shared/solve/soft_step.h, with the same fixed points. The solver `jacobi` uses them for all
  * constraints, at the same time as joints (joints/mass_split.h), the others for the overflow constraints, which have no
  * colours.
  */
 #ifndef TANDEM_SHARED_SOLVE_MASS_SPLIT_H
 #define TANDEM_SHARED_SOLVE_MASS_SPLIT_H
 
-#include "shared/solve/contact.h"
+#include "shared/solve/contact_friction.h"
+#include "shared/solve/restitution.h"
 #include "shared/solve/parts.h"
 
 SHARED real parts_of(GLOBAL const uint *body_constraint_start, GLOBAL const uint *split_static_constraints,
@@ -298,11 +299,10 @@ SHARED void split_restitution_item(GLOBAL const Parameters *parameters, read_con
       load_split_normal_rows(patches, planes, c, load_arm_shift(solver_bodies.delta, c), impulses, masses, i);
   real normal_impulses[4];
   for (uint k = 0; k < 4u; ++k) {
-    real target = component(target_velocity, (uint_lanes)k);
-    mask applies = (target >= R(0.0)) & (component(highest, (uint_lanes)k) > R(0.0));
-    real wanted = maximum(
-        s.impulse[k] - s.mass[k] * (speed_along(c, c.normal, s.r_cross_n_a[k], s.r_cross_n_b[k]) - target), R(0.0));
-    normal_impulses[k] = choose(applies, wanted, s.impulse[k]);
+    real speed = speed_along(c, c.normal, s.r_cross_n_a[k], s.r_cross_n_b[k]);
+    normal_impulses[k] = maximum(bouncing_impulse(component(target_velocity, (uint_lanes)k),
+                                                  component(highest, (uint_lanes)k), speed, s.mass[k], s.impulse[k]),
+                                 R(0.0));
   }
   c = block_solve_normals(c, &s, normal_impulses);
   vec4 parted = make_vec4(s.impulse[0], s.impulse[1], s.impulse[2], s.impulse[3]);

@@ -22,7 +22,8 @@
 #ifndef TANDEM_SHARED_SOLVE_PGS_H
 #define TANDEM_SHARED_SOLVE_PGS_H
 
-#include "shared/solve/contact.h"
+#include "shared/solve/contact_friction.h"
+#include "shared/solve/restitution.h"
 
 /* The share of an overlap that a substep removes. */
 #define PGS_BIAS_SHARE R(0.2)

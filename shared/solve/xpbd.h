@@ -21,7 +21,8 @@
 #ifndef TANDEM_SHARED_SOLVE_XPBD_H
 #define TANDEM_SHARED_SOLVE_XPBD_H
 
-#include "shared/solve/contact.h"
+#include "shared/solve/contact_friction.h"
+#include "shared/solve/restitution.h"
 
 /* The slip at the centre since friction last held: a vector (m) and a twist about the normal (rad), as the speeds that
  * would undo it within a substep. */

@@ -8,8 +8,6 @@ using namespace tandem::physics_tests;
 
 namespace {
 
-const Placement on_serial{"serial", {}, false};
-
 /* A box that a ball joint holds at its centre in the air. */
 Scene held_box()
 {

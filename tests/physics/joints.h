@@ -56,6 +56,9 @@ inline Joint &connect(Scene &scene, JointType type, uint32_t a, uint32_t b, cons
   return scene.joints.back();
 }
 
+/* One thread, in the order of the sources. */
+inline const Placement on_serial{"serial", {}, false};
+
 /* Boxes that hang one below the other, on joints half-way between. */
 inline Scene hanging_boxes(int boxes, float mass, JointType type = JointType::ball)
 {

@@ -12,8 +12,6 @@ namespace {
 
 constexpr double epsilon = 0x1p-23; /* the relative spacing of floats */
 
-const Placement on_serial{"serial", {}, false};
-
 /* A ball at the end of an arm of a metre that hangs from the origin, let go at an angle from the vertical. */
 struct Pendulum {
   static constexpr double radius = 0.2, length = 1;

@@ -275,10 +275,9 @@ TEST_CASE("direct: a box jammed between two walls has small impulses, and comes 
     CAPTURE(friction);
     INFO("largest impulse " << largest << " N s, fastest " << fastest << " m/s");
     CHECK(largest > 0);
-    /* Each of four substeps may push with the speed at which overlaps part. */
-    CHECK(largest < 4 * settings.push_speed);
-    CHECK(fastest < settings.push_speed);
-    CHECK(world.bodies()[2].position[0] > 0.07);
+    CHECK(largest < 0.01); /* nothing but the walls pushes it, and both alike */
+    CHECK(fastest < 1e-6);
+    CHECK(world.bodies()[2].position[0] == Approx(0.1 - settings.slop).margin(5e-4)); /* out of the first wall */
   }
 }
 

@@ -131,7 +131,7 @@ TEST_CASE("spinning rods that are stopped at a wall gain no energy", "[physics]"
   }
 }
 
-/* A rod that is held about an axis cannot turn its spin with it. Held about two, it keeps its moment about the third. */
+/* A rod that is held about an axis cannot turn its spin with it. Held about two, its moment about the third stays. */
 TEST_CASE("spinning rods held about axes gain no energy where they are stopped at a wall", "[physics]")
 {
   const Axes held = GENERATE(Axes{true, false, false}, Axes{false, true, false}, Axes{true, false, true});

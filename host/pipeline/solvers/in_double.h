@@ -12,5 +12,5 @@
 namespace tandem::in_double {
 #include "shared/joints/couplings.h"
 #include "shared/platform.h"
-#include "shared/solve/contact.h"
+#include "shared/solve/soft_step.h"
 } // namespace tandem::in_double

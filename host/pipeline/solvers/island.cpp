@@ -85,8 +85,8 @@ void Island::add_contact(uint32_t i)
   problem_.manifolds.push_back(manifold);
 }
 
-/* The complementarity law of one point in this pass, as in normal_impulse() of shared/solve/contact.h but rigid;
- * returns false if the point takes no part. */
+/* The complementarity law of one point in this pass, as in normal_impulse() of shared/solve/contact_normals.h but
+ * rigid; returns false if the point takes no part. */
 bool Island::normal_row(uint32_t i, uint32_t k, double separation, double rate, double &bias) const
 {
   const Parameters &p = rows_.parameters;

@@ -7,7 +7,7 @@
  *         |  /          |
  *   ======[c]===========|=====
  *
- * It runs after a pass of the iterative solver (shared/solve/contact.h, shared/joints/solve.h) and solves the same
+ * It runs after a pass of the iterative solver (shared/solve/soft_step.h, shared/joints/solve.h) and solves the same
  * rows: normals, one friction cone at the centre of a manifold, one twist, and those of joints and couplings. Contacts
  * are rigid here, whereas soft rows yield under a heavy load; the speed that removes penetration is the same. Islands
  * of more than most_island_points keep the iterative result; four rows of a joint count as a point.

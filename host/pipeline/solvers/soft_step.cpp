@@ -1,5 +1,5 @@
 /* soft_step.cpp - the default solver: small substeps, in each of which soft constraints are solved, bodies moved and
- * the constraints relaxed; see shared/solve/contact.h. */
+ * the constraints relaxed; see shared/solve/soft_step.h. */
 #include "host/pipeline/solvers/joints.h"
 #include "host/pipeline/solvers/mass_split.h"
 #include "host/pipeline/solvers/solvers.h"
