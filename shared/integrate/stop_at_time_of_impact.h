@@ -16,19 +16,30 @@ SHARED vec3 turned_with_body(vec3 spin, quat from, quat to)
   return rotate(rotation_of(to), rotate_back(rotation_of(from), spin));
 }
 
-/* Twice the energy of a spin; an axis about which the body has no finite moment does not count. */
-SHARED real energy_of_spin(quat orientation, vec3 inverse_moments, vec3 angular)
+/* The moments about the body's axes, 0 where they are infinite. */
+SHARED vec3 finite_moments(vec3 inverse_moments)
 {
-  vec3 own = rotate_back(rotation_of(orientation), angular);
-  return own.x * own.x * held_share(inverse_moments.x) + own.y * own.y * held_share(inverse_moments.y) +
-         own.z * own.z * held_share(inverse_moments.z);
+  return make_vec3(held_share(inverse_moments.x), held_share(inverse_moments.y), held_share(inverse_moments.z));
 }
+
+/* Twice the energy of a spin; an axis about which the body has no finite moment does not count. */
+SHARED real energy_of_spin(quat orientation, vec3 moments, vec3 angular)
+{
+  vec3 own = momentum_in_body(orientation, angular);
+  return dot3(multiply(own, own), moments);
+}
+
+/* What rounding makes of the energy of a spin about axes without a finite moment, as a share of what it would have
+ * about the axis with the largest one. */
+#define ROUNDING_OF_SPIN R(1e-8)
 
 /* The factor that leaves a spin in world axes no more energy at one orientation than it had at another. */
 SHARED real share_of_spin(quat from, quat to, vec3 inverse_moments, vec3 angular)
 {
-  real before = energy_of_spin(from, inverse_moments, angular), after = energy_of_spin(to, inverse_moments, angular);
-  mask grows = after > before;
+  vec3 moments = finite_moments(inverse_moments);
+  real before = energy_of_spin(from, moments, angular), after = energy_of_spin(to, moments, angular);
+  real most = length_squared(angular) * maximum(maximum(moments.x, moments.y), moments.z);
+  mask grows = (after > before) & (after > ROUNDING_OF_SPIN * most);
   return choose(grows, square_root(before / choose(grows, after, (real)R(1.0))), (real)R(1.0));
 }
 

@@ -131,10 +131,10 @@ TEST_CASE("spinning rods that are stopped at a wall gain no energy", "[physics]"
   }
 }
 
-/* A rod that is held about an axis cannot turn its spin with it. Held about two, its moment about the third stays. */
-TEST_CASE("spinning rods held about axes gain no energy where they are stopped at a wall", "[physics]")
+/* A rod that is held about an axis cannot turn its spin with it. */
+TEST_CASE("spinning rods held about an axis gain no energy where they are stopped at a wall", "[physics]")
 {
-  const Axes held = GENERATE(Axes{true, false, false}, Axes{false, true, false}, Axes{true, false, true});
+  const Axes held = GENERATE(Axes{true, false, false}, Axes{false, true, false}, Axes{false, false, true});
   Random random(7);
   for (int i = 0; i < 300; ++i) {
     CAPTURE(i);

@@ -32,10 +32,10 @@ struct Reach {
  * guess; at rest, where the guess is the solution, it has no effect. With a much smaller compliance, rounding
  * alone would decide which points carry the load.
  *
- * A body held from two sides cannot have the speeds that both want, and its impulses grow until the compliance gives
- * way. From `noticeable` on, as a share of the largest speed, it is asked whether that is so (follow_loads); otherwise
- * impulses a million times too large would be the guess for the time when the body has come loose. */
-constexpr double compliance = 1e-6, noticeable = 1e-4, as_much = 0.95;
+ * A body held from two sides cannot have the speeds that both want, and its impulses would grow until the compliance
+ * gives way, to a million times what the body weighs. Such rows are as soft as `soft` (follow_loads): they grip, and
+ * let go when the body comes loose. From `noticeable` on, as a share of the largest speed, what a row yields counts. */
+constexpr double compliance = 1e-6, soft = 0.01, noticeable = 1e-4, as_much = 0.999;
 constexpr int most_loads = 8;
 constexpr double tolerance = 1e-9;
 constexpr double rounding = 1e-13; /* relative to the sums that make a speed */
@@ -88,9 +88,9 @@ public:
   {
     matrix_ = Eigen::Map<const RowMajor>(problem.matrix.data(), n_, n_);
     near_ = x_ = Eigen::Map<const Eigen::VectorXd>(problem.impulse.data(), n_);
-    wanted_ = Eigen::Map<const Eigen::VectorXd>(problem.offset.data(), n_);
     own_ = matrix_.diagonal();
-    yield(compliance, near_);
+    compliance_.setConstant(compliance);
+    yield_near();
     for (Eigen::Index i = 0; i < n_; ++i) step_[i] = 1 / matrix_(i, i);
     for (const ManifoldRows &m : problem_.manifolds)
       if (m.slides) step_[tangent(m)] = step_[tangent(m) + 1] = tangent_step(tangent(m));
@@ -106,8 +106,7 @@ public:
   {
     approach();
     follow_loads();
-    const Eigen::Map<const Eigen::VectorXd> offset(problem_.offset.data(), n_);
-    result_.yielded = (wanted_ - offset).cwiseAbs().maxCoeff() + yielded_speed();
+    result_.yielded = most_yielded(true);
     std::copy_n(best_.data(), n_, problem_.impulse.begin());
     return result_;
   }
@@ -129,39 +128,54 @@ private:
     }
   }
 
-  void approach_anew()
+  bool is_soft(Eigen::Index i) const { return compliance_[i] == soft; }
+
+  /* What the compliance has taken from the speed that a row wants. */
+  double yielded(Eigen::Index i) const { return compliance_[i] * own_[i] * std::abs(best_[i] - near_[i]); }
+  double most_yielded(bool counts_soft_rows) const
   {
-    yield(compliance, near_);
-    approach();
+    double most = 0;
+    for (Eigen::Index i = 0; i < n_; ++i)
+      if (counts_soft_rows || !is_soft(i)) most = std::max(most, yielded(i));
+    return most;
   }
-
-  /* The largest speed that the compliance has taken from what a row wants. */
-  double yielded_speed() const { return compliance * own_.cwiseProduct(best_ - near_).cwiseAbs().maxCoeff(); }
-
-  bool yields_noticeably() const { return yielded_speed() > noticeable * wanted_.cwiseAbs().maxCoeff(); }
 
   /* Under a load far above what bears it, the compliance yields less about each solution than about the one before
    * (proximal point method). Where it yields as much again, rows want what cannot be. */
   void follow_loads()
   {
-    for (int k = 0; k < most_loads && yields_noticeably(); ++k) {
-      const double yielded = yielded_speed();
-      near_ = x_ = best_;
-      approach_anew();
-      if (yielded_speed() > as_much * yielded) return settle_contradictions();
+    const double least =
+        noticeable * Eigen::Map<const Eigen::VectorXd>(problem_.offset.data(), n_).cwiseAbs().maxCoeff();
+    for (int k = 0; k < most_loads && most_yielded(false) > least; ++k) {
+      for (Eigen::Index i = 0; i < n_; ++i) before_[i] = yielded(i);
+      there_ = best_;
+      approach_near(there_);
+      if (!soften_contradictions(least)) continue;
+      there_ = Eigen::Map<const Eigen::VectorXd>(problem_.impulse.data(), n_);
+      approach_near(there_);
     }
   }
 
-  /* Rows that contradict each other want now what they have got, and of the impulses that give it those are taken that
-   * are nearest to 0. */
-  void settle_contradictions()
+  /* The rows that yield as much as before, and at least so much, become soft. */
+  bool soften_contradictions(double least)
   {
-    for (Eigen::Index i = 0; i < n_; ++i) wanted_[i] += compliance * own_[i] * (best_[i] - near_[i]);
-    near_.setZero();
-    x_ = Eigen::Map<const Eigen::VectorXd>(problem_.impulse.data(), n_);
-    approach_anew();
-    near_ = x_ = best_;
-    approach_anew();
+    bool are_there = false;
+    for (Eigen::Index i = 0; i < n_; ++i) {
+      if (is_soft(i) || !(yielded(i) > least && yielded(i) > as_much * before_[i])) continue;
+      compliance_[i] = soft;
+      are_there = true;
+    }
+    return are_there;
+  }
+
+  /* Soft rows yield to their whole impulses, all others to what they differ from these. */
+  void approach_near(const Vector &impulses)
+  {
+    near_ = x_ = impulses;
+    for (Eigen::Index i = 0; i < n_; ++i)
+      if (is_soft(i)) near_[i] = 0;
+    yield_near();
+    approach();
   }
 
   Vector vector() { return {arena_.take<double>(static_cast<size_t>(n_)), n_}; }
@@ -170,19 +184,21 @@ private:
   static Eigen::Index tangent(const ManifoldRows &m) { return m.first + m.normals; }
   static Eigen::Index twist(const ManifoldRows &m) { return tangent(m) + (m.slides ? 2 : 0); }
 
-  /* Makes rows compliant by a share of their own response to the difference of x from `about`. */
-  void yield(double share, const Vector &about)
+  /* Makes a row compliant by a share of its own response to the difference of x from `about`. */
+  void yield(Eigen::Index i, double share, double about)
   {
-    for (Eigen::Index i = 0; i < n_; ++i) {
-      offset_[i] = wanted_[i] - share * own_[i] * about[i];
-      matrix_(i, i) = own_[i] * (1 + share);
-    }
+    offset_[i] = problem_.offset[static_cast<size_t>(i)] - share * own_[i] * about;
+    matrix_(i, i) = own_[i] * (1 + share);
+  }
+  void yield_near()
+  {
+    for (Eigen::Index i = 0; i < n_; ++i) yield(i, compliance_[i], near_[i]);
   }
 
   void soften(Vector &x)
   {
     for (const double share : softened) {
-      yield(share, x);
+      for (Eigen::Index i = 0; i < n_; ++i) yield(i, share, x[i]);
       for (int k = 0; k < newton_limit / 2; ++k) {
         if (residual(x) <= accepted_residual(x)) break;
         const double before = merit();
@@ -192,7 +208,7 @@ private:
       }
       admit(x);
     }
-    yield(compliance, near_);
+    yield_near();
   }
 
   /* One step for both tangents, because the projection on a circle would otherwise not be a projection: 1 / largest
@@ -473,9 +489,9 @@ private:
   Eigen::Index *ends_, *coupled_; /* of elimination; the rows that take part in it */
   bool *is_coupled_;
   Matrix matrix_ = square(), derivative_ = square(), system_ = square();
-  Vector near_ = vector(), own_ = vector(), wanted_ = vector(), offset_ = vector(), step_ = vector(), speed_ = vector(),
-         map_ = vector(), x_ = vector(), best_ = vector(), inside_ = vector(), there_ = vector(), change_ = vector(),
-         right_ = vector();
+  Vector near_ = vector(), own_ = vector(), compliance_ = vector(), before_ = vector(), offset_ = vector(),
+         step_ = vector(), speed_ = vector(), map_ = vector(), x_ = vector(), best_ = vector(), inside_ = vector(),
+         there_ = vector(), change_ = vector(), right_ = vector();
   IslandResult result_;
 };
 
@@ -483,6 +499,7 @@ private:
 
 IslandResult solve_island(IslandProblem &problem, Arena &arena)
 {
+  if (problem.rows == 0) return {.converged = true};
   arena.clear();
   return IslandSolver(problem, arena).run();
 }
@@ -490,7 +507,7 @@ IslandResult solve_island(IslandProblem &problem, Arena &arena)
 /* The sum of the members of IslandSolver that lie in the arena, which throws where one was forgotten here. */
 size_t island_solver_bytes(size_t rows)
 {
-  return 3 * Arena::bytes_of<double>(rows * rows) + 13 * Arena::bytes_of<double>(rows) +
+  return 3 * Arena::bytes_of<double>(rows * rows) + 14 * Arena::bytes_of<double>(rows) +
          2 * Arena::bytes_of<Eigen::Index>(rows) + Arena::bytes_of<Reach>(rows) + Arena::bytes_of<bool>(rows);
 }
 

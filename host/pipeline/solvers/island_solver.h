@@ -48,16 +48,16 @@ struct IslandProblem {
 struct IslandResult {
   bool converged = false;
   double residual = 0; /* m/s: the largest speed by which a row violates its law (natural map over its step) */
-  double yielded = 0;  /* m/s: the largest speed by which a row has less than its law, because of the compliance or
-                        * because rows contradict each other */
+  double yielded = 0;  /* m/s: the largest speed that the compliance takes from what a row wants */
   uint32_t newton_steps = 0, iterations = 0;
 };
 
 /* Each row has a compliance of a millionth of its own response, applied to the difference of its impulse from the
- * guess. Where rows contradict each other, as those of a body between two walls that want it out to both sides, none
- * gets what it wants, and the impulses are those nearest to 0 that give what they get. The result has converged if the
- * residual is at most 1e-9 of the largest speed of the problem. If neither method converges, the impulses are the best
- * ones found, including the guess. They are finite if the problem is.
+ * guess; where that would show, the problem is solved again about its solution. Where rows contradict each other, as
+ * those of a body between two walls that want it out to both sides, they have a compliance of a hundredth, applied to
+ * their whole impulse. The result has converged if the residual is at most 1e-9 of the largest speed of the problem. If
+ * neither method converges, the impulses are the best ones found, including the guess. They are finite if the problem
+ * is.
  *
  * The solver allocates nothing. It works in the arena, in which island_solver_bytes(problem.rows) must be reserved. */
 IslandResult solve_island(IslandProblem &problem, Arena &arena);

@@ -150,18 +150,41 @@ IslandProblem problem_of(const Eigen::Matrix2d &matrix, const Eigen::Vector2d &o
 
 } // namespace
 
-TEST_CASE("island solver: a body that two walls want out to both sides gets the least impulses", "[direct]")
+TEST_CASE("island solver: a body that two walls want out to both sides gets impulses of its size", "[direct]")
 {
-  /* The left wall wants 1 m/s to the right, the right one 0.4 to the left, so 1 kg is left with half of the
-   * difference. */
+  /* The left wall wants 1 m/s to the right, the right one 0.4 to the left, and both give way by a hundredth of their
+   * impulse. */
   Eigen::Matrix2d matrix;
   matrix << 1, -1, -1, 1;
-  for (const double guess : {0.0, 0.1, 50.0}) {
-    IslandProblem problem = problem_of(matrix, {-1, -0.4}, guess);
+  const Eigen::Vector2d offset(-1, -0.4);
+  const Eigen::Vector2d expected = (matrix + 0.01 * Eigen::Matrix2d::Identity()).inverse() * -offset;
+  for (const double guess : {0.0, 0.1, 50.0, 1e4}) {
+    IslandProblem problem = problem_of(matrix, offset, guess);
     CAPTURE(guess);
     CHECK(solve(problem).converged);
-    CHECK(problem.impulse[0] == Approx(0.3).margin(1e-6));
-    CHECK(problem.impulse[1] == Approx(0).margin(1e-6));
+    CHECK(problem.impulse[0] == Approx(expected[0]).epsilon(1e-9));
+    CHECK(problem.impulse[1] == Approx(expected[1]).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("island solver: a load beside a jam is borne whole", "[direct]")
+{
+  /* The jam above, and a ton on a kilogram. */
+  IslandProblem problem;
+  problem.rows = 4;
+  Eigen::Matrix4d matrix = Eigen::Matrix4d::Zero();
+  matrix.topLeftCorner<2, 2>() << 1, -1, -1, 1;
+  matrix.bottomRightCorner<2, 2>() << 1, -1, -1, 1.001;
+  problem.matrix.assign(matrix.data(), matrix.data() + 16);
+  problem.offset = {-1, -0.4, -0.1, 0};
+  for (uint32_t k = 0; k < 4; ++k) problem.manifolds.push_back({k, 1, false, false, 0, 0});
+  for (const double guess : {0.0, 100.0}) {
+    problem.impulse = {0, 0, guess, guess};
+    CHECK(solve(problem).converged);
+    CHECK(problem.impulse[0] + problem.impulse[1] < 200);
+    /* Both rows may yield a ten-thousandth of the largest speed, and together they give 0.001 m/s for 1 N s. */
+    CHECK(problem.impulse[2] == Approx(100.1).margin(0.201));
+    CHECK(problem.impulse[3] == Approx(100).margin(0.201));
   }
 }
 
