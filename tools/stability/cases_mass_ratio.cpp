@@ -71,7 +71,7 @@ void add_mass_ratio_cases(std::vector<Case> &cases)
                               {1, 1000, 1, 1000, 1, 1000, 1, 1000, 1, 1000}, four_slops, 32));
   cases.push_back(column_case("doubling-up",
                               "a column of 20 cubes, each twice as heavy as the one it stands on: 1 kg to 524 t",
-                              doubling(true), 0.0015, 0, "direct"));
+                              doubling(true), 0.00005, 0, "direct"));
   cases.push_back(column_case("doubling-down",
                               "a column of 20 cubes, each half as heavy as the one it stands on: 524 t to 1 kg",
                               doubling(false), deepest_at_rest(doubling(false), {})));
