@@ -25,7 +25,7 @@ SHARED vec3 finite_moments(vec3 inverse_moments)
 /* Twice the energy of a spin; an axis about which the body has no finite moment does not count. */
 SHARED real energy_of_spin(quat orientation, vec3 moments, vec3 angular)
 {
-  vec3 own = momentum_in_body(orientation, angular);
+  vec3 own = rotate_back(rotation_of(orientation), angular);
   return dot3(multiply(own, own), moments);
 }
 
@@ -57,13 +57,16 @@ SHARED void stop_at_time_of_impact_item(GLOBAL const Parameters *parameters, GLO
        rotation = scale(xyz(load_float4(solver_delta_pose, i * 2u + 1u)), share);
   quat stopped = turned(quat_from(load_float4(body_orientation, i)), rotation);
   if (HAS_FEATURE(parameters, GYROSCOPIC)) {
-    uint_lanes locks = HAS_FEATURE(parameters, LOCKS) ? load_uint(body_lock, i) : (uint_lanes)0u;
     spatial_velocity m = load_velocity(solver_velocity, i);
     vec4 mass = load_float4(body_mass, i);
-    mask uneven = cut & is_uneven(m, mass), turns = angular_locks(locks) == 0u;
+    mask uneven = cut & is_uneven(m, mass);
     quat whole = quat_from(load_float4(solver_orientation, i));
-    vec3 held = scale(m.angular, share_of_spin(whole, stopped, xyz(mass), m.angular));
-    m.angular = choose3(turns, turned_with_body(m.angular, whole, stopped), held);
+    vec3 spin = turned_with_body(m.angular, whole, stopped);
+    if (HAS_FEATURE(parameters, LOCKS)) {
+      mask held = angular_locks(load_uint(body_lock, i)) != 0u;
+      spin = choose3(held, scale(m.angular, share_of_spin(whole, stopped, xyz(mass), m.angular)), spin);
+    }
+    m.angular = spin;
     store_velocity_if(uneven, solver_velocity, i, m);
   }
   store_float4_if(cut, solver_delta_pose, i * 2u, extend(translation, R(0.0)));

@@ -172,9 +172,7 @@ SHARED void avbd_duals_item(GLOBAL const Parameters *parameters, read_contacts c
   store_float4(duals.normal, i, normal_impulses);
   store_friction(parameters, duals.friction, i,
                  make_vec4(f.first, f.second, f.twist, load_friction(parameters, duals.friction, i).w));
-  if (HAS_FEATURE(parameters, RESTITUTION))
-    store_float4(constraint_restitution, planes.stride + i,
-                 highest_impulses(load_float4(constraint_restitution, planes.stride + i), normal_impulses));
+  keep_highest_impulses(parameters, constraint_restitution, planes.stride, normal_impulses, i);
 }
 
 SHARED void avbd_cache_item(GLOBAL const uint *constraint_pair, GLOBAL const float4 *constraint_penalty,

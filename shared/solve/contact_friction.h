@@ -53,31 +53,51 @@ SHARED real share_within_cone(real first, real second, real limit)
   return choose(slips, limit / square_root(choose(slips, squared, (real)R(1.0))), (real)R(1.0));
 }
 
-/* Solves the twist about the normal and the cone of sliding friction at the centre of the manifold. stale: whether the
- * stored masses are stale. */
+SHARED real spin_between(contact c) { return dot3(c.normal, subtract(c.velocity_b.angular, c.velocity_a.angular)); }
+SHARED vec3 slide_between(contact c, vec3 arm_a, vec3 arm_b)
+{
+  return subtract(velocity_at(c.velocity_b, arm_b), velocity_at(c.velocity_a, arm_a));
+}
+
+SHARED real sum_of_points(vec4 normal_impulses)
+{
+  return (normal_impulses.x + normal_impulses.y) + (normal_impulses.z + normal_impulses.w);
+}
+
+/* The twist about the normal, and the cone of sliding friction at the centre of the manifold. spin, slide: the motion
+ * of b relative to a that friction undoes; limit: of the impulse along the tangents. */
+SHARED solved solve_twist(contact c, real spin, real mass, real limit, vec4 old)
+{
+  real twist_limit = limit * old.w;
+  real twist = clamped(old.z - mass * spin, -twist_limit, twist_limit);
+  solved s = {apply_turn(c, c.normal, c.normal, twist - old.z), make_vec4(old.x, old.y, twist, old.w)};
+  return s;
+}
+
+SHARED solved solve_slide(contact c, mask stale, vec3 slide, vec3 arm_a, vec3 arm_b, real stored, real limit, vec4 old)
+{
+  tangents t = tangents_of(c.normal);
+  real slide_first = dot3(slide, t.first), slide_second = dot3(slide, t.second);
+  vec3 along = add(scale(t.first, slide_first), scale(t.second, slide_second));
+  real mass = friction_mass_now(c, stale, stored, along, arm_a, arm_b);
+  real first = old.x - mass * slide_first, second = old.y - mass * slide_second;
+  real shrink = share_within_cone(first, second, limit);
+  first = first * shrink;
+  second = second * shrink;
+  vec3 change = add(scale(t.first, first - old.x), scale(t.second, second - old.y));
+  solved s = {apply_impulse(c, change, cross3(arm_a, change), cross3(arm_b, change), R(1.0)),
+              make_vec4(first, second, old.z, old.w)};
+  return s;
+}
+
+/* Both, against the present velocities. stale: whether the stored masses are stale. */
 SHARED solved solve_friction(contact c, mask stale, arm_shift shift, vec4 center_a, vec4 center_b, vec4 impulse,
                              real normal_impulse_sum)
 {
   real limit = c.friction * normal_impulse_sum;
-  real spin = dot3(c.normal, subtract(c.velocity_b.angular, c.velocity_a.angular));
-  real twist_limit = limit * impulse.w;
-  real twist = clamped(impulse.z - twist_mass_now(c, stale, center_b.w) * spin, -twist_limit, twist_limit);
-  c = apply_turn(c, c.normal, c.normal, twist - impulse.z);
-
-  tangents t = tangents_of(c.normal);
+  solved held = solve_twist(c, spin_between(c), twist_mass_now(c, stale, center_b.w), limit, impulse);
   vec3 arm_a = add(xyz(center_a), shift.a), arm_b = add(xyz(center_b), shift.b);
-  vec3 slide = subtract(velocity_at(c.velocity_b, arm_b), velocity_at(c.velocity_a, arm_a));
-  real slide_first = dot3(slide, t.first), slide_second = dot3(slide, t.second);
-  vec3 along = add(scale(t.first, slide_first), scale(t.second, slide_second));
-  real mass = friction_mass_now(c, stale, center_a.w, along, arm_a, arm_b);
-  real first = impulse.x - mass * slide_first, second = impulse.y - mass * slide_second;
-  real shrink = share_within_cone(first, second, limit);
-  first = first * shrink;
-  second = second * shrink;
-  vec3 change = add(scale(t.first, first - impulse.x), scale(t.second, second - impulse.y));
-  solved s = {apply_impulse(c, change, cross3(arm_a, change), cross3(arm_b, change), R(1.0)),
-              {first, second, twist, impulse.w}};
-  return s;
+  return solve_slide(held.c, stale, slide_between(held.c, arm_a, arm_b), arm_a, arm_b, center_a.w, limit, held.impulse);
 }
 
 #endif

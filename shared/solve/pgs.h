@@ -69,9 +69,7 @@ SHARED void pgs_normals_item(GLOBAL const Parameters *parameters, read_contacts 
   }
   vec4 normal_impulses = make_vec4(impulse[0], impulse[1], impulse[2], impulse[3]);
   store_float4(constraint_normal_impulse, i, normal_impulses);
-  if (HAS_FEATURE(parameters, RESTITUTION))
-    store_float4(constraint_restitution, planes.stride + i,
-                 highest_impulses(load_float4(constraint_restitution, planes.stride + i), normal_impulses));
+  keep_highest_impulses(parameters, constraint_restitution, planes.stride, normal_impulses, i);
   store_contact_velocities(solver_velocity, c);
 }
 

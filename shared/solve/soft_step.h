@@ -36,9 +36,7 @@ SHARED void settle_impact(GLOBAL const Parameters *parameters, read_contacts con
     c = solve_normals(parameters, c, &s, moved, patches.points, planes, slop, biased, i);
   vec4 normal_impulses = impulses_of(&s);
   store_float4_if(at_impact, contact_impulses.normal, i, normal_impulses);
-  if (HAS_FEATURE(parameters, RESTITUTION))
-    store_float4_if(at_impact, contact_impulses.restitution, planes.stride + i,
-                    highest_impulses(load_float4(contact_impulses.restitution, planes.stride + i), normal_impulses));
+  keep_highest_impulses_if(at_impact, parameters, contact_impulses.restitution, planes.stride, normal_impulses, i);
   vec4 changes = make_vec4(normal_impulses.x - before.x, normal_impulses.y - before.y, normal_impulses.z - before.z,
                            normal_impulses.w - before.w);
   c = load_contact(parameters, contacts, solver_velocity, solver_inertia, i);
@@ -67,9 +65,8 @@ SHARED void solve_contacts_item(GLOBAL const Parameters *parameters, read_contac
   arm_shift shift = shift_of_contact(c, moved.translation);
   mask rough = c.friction > R(0.0);
   if (HAS_FEATURE(parameters, FRICTION) && any_of(rough)) {
-    real normal_impulse_sum = (impulses.x + impulses.y) + (impulses.z + impulses.w);
     mask stale = masses_are_stale(moved, shift, center_a, center_b);
-    solved sliding = solve_friction(c, stale, shift, center_a, center_b, friction, normal_impulse_sum);
+    solved sliding = solve_friction(c, stale, shift, center_a, center_b, friction, sum_of_points(impulses));
     c = with_velocities_if(rough, c, sliding.c);
     friction = choose4(rough, sliding.impulse, friction);
     store_float4(contact_impulses.friction, i, friction);

@@ -39,41 +39,7 @@ SHARED slipped slip_since(vec4 before, contact c, delta_pose moved, vec3 arm_a, 
   return s;
 }
 
-/* Solves twist and cone at the centre of the manifold, after the points: the multipliers start at 0, so the normal
- * impulses must be known first. spin, slide: the motion that friction undoes. */
-SHARED solved xpbd_twist(contact c, real spin, real mass, real limit, vec4 old)
-{
-  real twist_limit = limit * old.w;
-  real twist = clamped(old.z - mass * spin, -twist_limit, twist_limit);
-  solved s = {apply_turn(c, c.normal, c.normal, twist - old.z), make_vec4(old.x, old.y, twist, old.w)};
-  return s;
-}
-
-SHARED solved xpbd_slide(contact c, mask stale, vec3 slide, vec3 arm_a, vec3 arm_b, real stored, real limit, vec4 old)
-{
-  tangents t = tangents_of(c.normal);
-  real slide_first = dot3(slide, t.first), slide_second = dot3(slide, t.second);
-  vec3 along = add(scale(t.first, slide_first), scale(t.second, slide_second));
-  real mass = friction_mass_now(c, stale, stored, along, arm_a, arm_b);
-  real first = old.x - mass * slide_first, second = old.y - mass * slide_second;
-  real shrink = share_within_cone(first, second, limit);
-  first = first * shrink;
-  second = second * shrink;
-  vec3 change = add(scale(t.first, first - old.x), scale(t.second, second - old.y));
-  solved s = {apply_impulse(c, change, cross3(arm_a, change), cross3(arm_b, change), R(1.0)),
-              make_vec4(first, second, old.z, old.w)};
-  return s;
-}
-
-SHARED real limit_of(contact c, vec4 normal_impulses)
-{
-  return c.friction * ((normal_impulses.x + normal_impulses.y) + (normal_impulses.z + normal_impulses.w));
-}
-SHARED real spin_between(contact c) { return dot3(c.normal, subtract(c.velocity_b.angular, c.velocity_a.angular)); }
-SHARED vec3 slide_between(contact c, vec3 arm_a, vec3 arm_b)
-{
-  return subtract(velocity_at(c.velocity_b, arm_b), velocity_at(c.velocity_a, arm_a));
-}
+SHARED real limit_of(contact c, vec4 normal_impulses) { return c.friction * sum_of_points(normal_impulses); }
 
 /* Loads the slip that the same pair still had to undo in the last step. */
 SHARED void xpbd_prepare_item(GLOBAL const uint *constraint_pair, GLOBAL const uint *pair_cached,
@@ -113,9 +79,9 @@ SHARED solved xpbd_hold(GLOBAL const Parameters *parameters, contact c, delta_po
   vec3 arm_a = add(xyz(center_a), shift.a), arm_b = add(xyz(center_b), shift.b);
   slipped slip = slip_since(slip_before, c, moved, arm_a, arm_b, parameters->inverse_substep);
   mask stale = masses_are_stale(moved, shift, center_a, center_b);
-  solved held = xpbd_twist(c, spin_between(c) + slip.twist, twist_mass_now(c, stale, center_b.w), limit, friction);
+  solved held = solve_twist(c, spin_between(c) + slip.twist, twist_mass_now(c, stale, center_b.w), limit, friction);
   vec3 slide = add(slide_between(held.c, arm_a, arm_b), slip.slide);
-  return xpbd_slide(held.c, stale, slide, arm_a, arm_b, center_a.w, limit, held.impulse);
+  return solve_slide(held.c, stale, slide, arm_a, arm_b, center_a.w, limit, held.impulse);
 }
 
 /* first_iteration: 1 in the first iteration of a substep, in which multipliers start at 0. */
@@ -179,13 +145,9 @@ SHARED void xpbd_velocities_item(GLOBAL const Parameters *parameters, read_conta
   mask rough = pressing & (c.friction > R(0.0));
   if (HAS_FEATURE(parameters, FRICTION) && any_of(rough)) {
     vec4 center_a = load_float4(patches.center, i), center_b = center_of_b(center_a, load_float4(patches.offset, i));
-    vec3 arm_a = add(xyz(center_a), shift.a), arm_b = add(xyz(center_b), shift.b);
-    real limit = limit_of(c, impulses_of(&s));
+    vec4 sliding = load_float4(constraint_friction_impulse, i), normal_impulses = impulses_of(&s);
     mask stale = masses_are_stale(moved, shift, center_a, center_b);
-    solved held = xpbd_twist(c, spin_between(c), twist_mass_now(c, stale, center_b.w), limit,
-                             load_float4(constraint_friction_impulse, i));
-    held =
-        xpbd_slide(held.c, stale, slide_between(held.c, arm_a, arm_b), arm_a, arm_b, center_a.w, limit, held.impulse);
+    solved held = solve_friction(c, stale, shift, center_a, center_b, sliding, sum_of_points(normal_impulses));
     c = with_velocities_if(rough, c, held.c);
     store_float4_if(rough, constraint_friction_impulse, i, held.impulse);
   }

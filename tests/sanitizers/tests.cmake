@@ -57,7 +57,7 @@ if(TANDEM_SANITIZE MATCHES address)
     sanitizer_test(${file} $<TARGET_FILE:tandem_tests> ${fail_without_tests} --filenames-as-tags "[#${file}]")
   endforeach()
 
-  # By one element. Each width is seen in its own kernels, of which whole vectors are gathered.
+  # By one element. Each width that is watched is seen in its own kernels, of which whole vectors are gathered.
   function(sees_overruns name kernels backend)
     foreach(buffer body_velocity bounds counts)
       sanitizer_sees(overrun.${name}.${buffer} "ERROR: AddressSanitizer" overrun ${buffer} ${backend})

@@ -19,6 +19,7 @@ namespace tandem {
 namespace {
 
 using Vector = Eigen::Map<Eigen::VectorXd>;
+using Given = Eigen::Map<const Eigen::VectorXd>;
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using Matrix = Eigen::Map<RowMajor>;
 
@@ -87,7 +88,7 @@ public:
         is_coupled_(arena.take<bool>(problem.rows))
   {
     matrix_ = Eigen::Map<const RowMajor>(problem.matrix.data(), n_, n_);
-    near_ = x_ = Eigen::Map<const Eigen::VectorXd>(problem.impulse.data(), n_);
+    near_ = x_ = guess();
     own_ = matrix_.diagonal();
     compliance_.setConstant(compliance);
     yield_near();
@@ -128,6 +129,7 @@ private:
     }
   }
 
+  Given guess() const { return {problem_.impulse.data(), n_}; }
   bool is_soft(Eigen::Index i) const { return compliance_[i] == soft; }
 
   /* What the compliance has taken from the speed that a row wants. */
@@ -144,15 +146,11 @@ private:
    * (proximal point method). Where it yields as much again, rows want what cannot be. */
   void follow_loads()
   {
-    const double least =
-        noticeable * Eigen::Map<const Eigen::VectorXd>(problem_.offset.data(), n_).cwiseAbs().maxCoeff();
+    const double least = noticeable * Given(problem_.offset.data(), n_).cwiseAbs().maxCoeff();
     for (int k = 0; k < most_loads && most_yielded(false) > least; ++k) {
       for (Eigen::Index i = 0; i < n_; ++i) before_[i] = yielded(i);
-      there_ = best_;
-      approach_near(there_);
-      if (!soften_contradictions(least)) continue;
-      there_ = Eigen::Map<const Eigen::VectorXd>(problem_.impulse.data(), n_);
-      approach_near(there_);
+      approach_near(best_);
+      if (soften_contradictions(least)) approach_near(guess());
     }
   }
 
@@ -169,7 +167,7 @@ private:
   }
 
   /* Soft rows yield to their whole impulses, all others to what they differ from these. */
-  void approach_near(const Vector &impulses)
+  template <class Impulses> void approach_near(const Impulses &impulses)
   {
     near_ = x_ = impulses;
     for (Eigen::Index i = 0; i < n_; ++i)
